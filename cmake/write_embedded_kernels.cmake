@@ -1,0 +1,12 @@
+# Writes OUT: a C++ file that maps each path below DIR to the text of its file.
+file(GLOB_RECURSE files RELATIVE ${DIR} ${DIR}/*.cl ${DIR}/*.h)
+list(SORT files)
+set(text "// Generated from kernels/ at build time.\n#include \"cl/kernel_source.h\"\n\nnamespace whittle {\n\n")
+string(APPEND text "const std::map<std::string, std::string>& embeddedKernelFiles() {\n")
+string(APPEND text "  static const std::map<std::string, std::string> files = {\n")
+foreach(file ${files})
+  file(READ ${DIR}/${file} content)
+  string(APPEND text "      {\"${file}\", R\"whittle_source(${content})whittle_source\"},\n")
+endforeach()
+string(APPEND text "  };\n  return files;\n}\n\n}  // namespace whittle\n")
+file(WRITE ${OUT} "${text}")

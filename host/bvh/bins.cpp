@@ -1,0 +1,118 @@
+// The binning loop and the sweep over bins. Costs are swept in float lanes relative to the node's size, so
+// that neither huge nor tiny coordinates overflow or vanish.
+#include "bvh/bins.h"
+
+#include <algorithm>
+
+namespace whittle {
+
+BinMap::BinMap(const Box4& centroids, int binCount) : origin(centroids.lo), scale(splat4(0)), bins(binCount) {
+  constexpr float kTooSmall = 1e-36F;  // bins / extent would overflow
+  // A little less than the number of bins: the largest centroid stays inside the last one after rounding.
+  const float last = static_cast<float>(binCount) * 0.99999F;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float extent = centroids.hi[axis] - centroids.lo[axis];
+    if (extent > kTooSmall && extent <= std::numeric_limits<float>::max()) scale[axis] = last / extent;
+  }
+}
+
+Bins::Bins(int bins) {
+  const Box4 empty;
+  for (int i = 0; i < bins; ++i) {
+    for (Box4& b : box[i]) b = empty;
+    count[i] = Int4{};
+  }
+}
+
+void Bins::add(std::span<const PrimRef> refs, const BinMap& binMap) {
+  const BinMap map = binMap;  // a copy: the stores below cannot change it, so it stays in registers
+  for (const PrimRef& ref : refs) {
+    const Int4 bin = map(ref);
+    for (int axis = 0; axis < 3; ++axis) {
+      Box4& b = box[bin[axis]][axis];
+      b.lo = min4(b.lo, ref.lo);
+      b.hi = max4(b.hi, ref.hi);
+      ++count[bin[axis]][axis];
+    }
+  }
+}
+
+void Bins::merge(const Bins& other, int bins) {
+  for (int i = 0; i < bins; ++i) {
+    for (int axis = 0; axis < 3; ++axis) box[i][axis].grow(other.box[i][axis]);
+    count[i] += other.count[i];
+  }
+}
+
+namespace {
+
+Float4 toFloat(Int4 v) { return __builtin_convertvector(v, Float4); }
+
+/// Half areas of three boxes, lane k for box k, of edges multiplied by `scale`. NaN or infinite for empty
+/// boxes.
+Float4 halfAreas(const Box4 (&box)[3], Float4 scale) {
+  const Float4 a = box[0].hi - box[0].lo, b = box[1].hi - box[1].lo, c = box[2].hi - box[2].lo;
+  // Scaled only here: lane 3 of a, b, c may be a denormal, which is slow to multiply.
+  const Float4 x = Float4{a[0], b[0], c[0], 0} * scale;
+  const Float4 y = Float4{a[1], b[1], c[1], 0} * scale;
+  const Float4 z = Float4{a[2], b[2], c[2], 0} * scale;
+  return x * (y + z) + y * z;
+}
+
+/// 1 / the longest edge: areas relative to the node neither overflow nor vanish in float.
+Float4 relativeScale(const Box4& box) {
+  const Float4 d = box.hi - box.lo;
+  return splat4(1 / std::max({d[0], d[1], d[2]}));
+}
+
+/// The box of bins [from, to) on an axis.
+Box4 boxOf(const Bins& bins, int axis, int from, int to, std::uint32_t& count) {
+  Box4 box;
+  for (int i = from; i < to; ++i) {
+    box.grow(bins.box[i][axis]);
+    count += static_cast<std::uint32_t>(bins.count[i][axis]);
+  }
+  return box;
+}
+
+}  // namespace
+
+BinSplit bestSplit(const Bins& bins, const BinMap& map, const Box4& box) {
+  const Float4 scale = relativeScale(box);
+  Float4 above[kMaxBins];  // half area · triangles of bins i and higher
+  Box4 swept[3];
+  Int4 count{};
+  for (int i = map.bins - 1; i > 0; --i) {
+    for (int axis = 0; axis < 3; ++axis) swept[axis].grow(bins.box[i][axis]);
+    count += bins.count[i];
+    above[i] = halfAreas(swept, scale) * toFloat(count);
+  }
+  for (Box4& b : swept) b = Box4{};
+  count = Int4{};
+  Float4 best = splat4(std::numeric_limits<float>::infinity());
+  Int4 bestBin{};
+  for (int i = 1; i < map.bins; ++i) {
+    for (int axis = 0; axis < 3; ++axis) swept[axis].grow(bins.box[i - 1][axis]);
+    count += bins.count[i - 1];
+    // An empty side costs inf · 0: a NaN, which is not less than anything.
+    const Float4 cost = halfAreas(swept, scale) * toFloat(count) + above[i];
+    const Int4 less = cost < best;
+    bestBin = less ? Int4{i, i, i, i} : bestBin;
+    best = less ? cost : best;
+  }
+  BinSplit split;
+  float cost = std::numeric_limits<float>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (map.scale[axis] > 0 && best[axis] < cost) {
+      cost = best[axis];
+      split.axis = axis;
+      split.bin = bestBin[axis];
+    }
+  }
+  if (split.axis < 0) return split;
+  split.low = boxOf(bins, split.axis, 0, split.bin, split.lowCount);
+  split.high = boxOf(bins, split.axis, split.bin, map.bins, split.highCount);
+  return split;
+}
+
+}  // namespace whittle

@@ -1,0 +1,119 @@
+// Device listing and choice. The device is asked for what it can do; nothing is guessed from its name.
+#include "cl/device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "cl/error.h"
+
+namespace whittle {
+namespace {
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string kindOf(cl_device_type type) {
+  if (type & CL_DEVICE_TYPE_CPU) return "cpu";
+  if (type & CL_DEVICE_TYPE_GPU) return "gpu";
+  if (type & CL_DEVICE_TYPE_ACCELERATOR) return "accelerator";
+  return "other";
+}
+
+std::string whyUnusable(const cl::Device& device) {
+  if (!device.getInfo<CL_DEVICE_AVAILABLE>()) return "the driver says it is not available";
+  if (!device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>()) return "it has no kernel compiler";
+  if (!device.getInfo<CL_DEVICE_ENDIAN_LITTLE>()) return "it is big-endian";
+  const auto version = device.getInfo<CL_DEVICE_VERSION>();  // "OpenCL 1.2 …"
+  if (version.rfind("OpenCL 1.0", 0) == 0 || version.rfind("OpenCL 1.1", 0) == 0) return "it knows only " + version;
+  return {};
+}
+
+DeviceInfo describe(const cl::Device& device, const std::string& platform) {
+  DeviceInfo info;
+  info.device = device;
+  info.platform = platform;
+  info.name = device.getInfo<CL_DEVICE_NAME>();
+  info.vendor = device.getInfo<CL_DEVICE_VENDOR>();
+  info.version = device.getInfo<CL_DEVICE_VERSION>();
+  info.driver = device.getInfo<CL_DRIVER_VERSION>();
+  info.kind = kindOf(device.getInfo<CL_DEVICE_TYPE>());
+  info.computeUnits = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+  info.globalMemory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  info.largestBuffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  info.maxWorkGroup = device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+  info.reason = whyUnusable(device);
+  info.usable = info.reason.empty();
+  return info;
+}
+
+void listPlatform(const cl::Platform& platform, DeviceList& list) {
+  std::string name = "a platform";
+  try {
+    name = platform.getInfo<CL_PLATFORM_NAME>();
+    std::vector<cl::Device> devices;
+    platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+    for (const auto& device : devices) {
+      try {
+        list.devices.push_back(describe(device, name));
+      } catch (const cl::Error& e) {
+        list.problems.push_back(name + ": a device does not answer (" + clErrorName(e.err()) + ")");
+      }
+    }
+    if (devices.empty()) list.problems.push_back(name + ": no device");
+  } catch (const cl::Error& e) {
+    list.problems.push_back(name + (e.err() == CL_DEVICE_NOT_FOUND ? ": no device" : ": " + clErrorName(e.err())));
+  }
+}
+
+const DeviceInfo* find(const DeviceList& list, const std::string& selector) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(selector.data(), selector.data() + selector.size(), index);
+  if (error == std::errc{} && end == selector.data() + selector.size())
+    return index < list.devices.size() ? &list.devices[index] : nullptr;
+  const std::string wanted = lower(selector);
+  const DeviceInfo* first = nullptr;
+  for (const auto& d : list.devices) {
+    const bool matches = wanted.empty() || d.kind == wanted || lower(d.name).find(wanted) != std::string::npos ||
+                         lower(d.platform).find(wanted) != std::string::npos;
+    if (!matches) continue;
+    if (wanted.empty() && d.usable && d.kind == "cpu") return &d;
+    if (!first || (!first->usable && d.usable)) first = &d;
+  }
+  return first;
+}
+
+}  // namespace
+
+DeviceList listDevices() {
+  DeviceList list;
+  std::vector<cl::Platform> platforms;
+  try {
+    cl::Platform::get(&platforms);
+  } catch (const cl::Error& e) {
+    list.problems.push_back("no OpenCL platform (" + clErrorName(e.err()) + "); install one, for instance PoCL");
+  }
+  for (const auto& platform : platforms) listPlatform(platform, list);
+  for (std::size_t i = 0; i < list.devices.size(); ++i) list.devices[i].index = static_cast<int>(i);
+  return list;
+}
+
+DeviceInfo selectDevice(const DeviceList& list, const std::string& selector) {
+  const DeviceInfo* found = find(list, selector);
+  if (!found) {
+    const std::string what = selector.empty() ? "no OpenCL device" : "no OpenCL device matches '" + selector + "'";
+    throw std::invalid_argument("--device: " + what + "; `whittle devices` lists what is there");
+  }
+  if (!found->usable) throw std::invalid_argument("--device: " + found->name + " cannot be used: " + found->reason);
+  return *found;
+}
+
+void limitCpuThreads(int threads) {
+  if (threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
+}
+
+}  // namespace whittle

@@ -1,0 +1,40 @@
+// Every OpenCL device of the machine, usable or not and why, and the choice of one.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cl/opencl.h"
+
+namespace whittle {
+
+struct DeviceInfo {
+  int index = 0;  ///< as listed by `whittle devices`
+  std::string platform, name, vendor, version, driver;
+  std::string kind;  ///< "cpu", "gpu", "accelerator" or "other"
+  unsigned computeUnits = 0;
+  std::uint64_t globalMemory = 0;   ///< bytes
+  std::uint64_t largestBuffer = 0;  ///< bytes, the single-allocation limit
+  std::uint64_t maxWorkGroup = 0;   ///< work items
+  bool usable = false;
+  std::string reason;  ///< why not, one line
+  cl::Device device;
+};
+
+struct DeviceList {
+  std::vector<DeviceInfo> devices;
+  std::vector<std::string> problems;  ///< platforms without devices, drivers that failed; one line each
+};
+
+/// Asks every platform; a broken one becomes a line in `problems`, never an exception.
+DeviceList listDevices();
+
+/// Chooses by index, part of a name (any case), or cpu|gpu; empty: the first usable CPU, else the first usable.
+/// Throws InputError-like std::invalid_argument with one line if there is none.
+DeviceInfo selectDevice(const DeviceList& list, const std::string& selector);
+
+/// Limits PoCL to `threads` CPU threads; works only before the first OpenCL call of the process. 0: no limit.
+void limitCpuThreads(int threads);
+
+}  // namespace whittle

@@ -1,0 +1,31 @@
+// OpenCL failures as exceptions that say what was being done.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "cl/opencl.h"
+
+namespace whittle {
+
+/// A failed OpenCL call: what was being done, the call, the error's name and number.
+class ClError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// CL_OUT_OF_RESOURCES and so on; "error -9999" for unknown numbers.
+std::string clErrorName(cl_int error);
+
+/// Runs `action`; an OpenCL error in it becomes a ClError that starts with `doing`.
+template <typename Action>
+decltype(auto) clTry(const std::string& doing, Action&& action) {
+  try {
+    return std::forward<Action>(action)();
+  } catch (const cl::Error& e) {
+    throw ClError(doing + ": " + e.what() + " failed with " + clErrorName(e.err()));
+  }
+}
+
+}  // namespace whittle

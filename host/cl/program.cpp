@@ -1,0 +1,67 @@
+// Context, buffers and program of one device.
+#include "cl/program.h"
+
+#include <fmt/format.h>
+
+namespace whittle {
+
+std::string formatBytes(std::uint64_t bytes) {
+  static const char* const kUnits[] = {"B", "kB", "MB", "GB", "TB"};
+  double value = static_cast<double>(bytes);
+  int unit = 0;
+  while (value >= 1000.0 && unit < 4) value /= 1000.0, ++unit;
+  return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.3g} {}", value, kUnits[unit]);
+}
+
+Compute::Compute(DeviceInfo device) : device_(std::move(device)) {
+  clTry("opening " + device_.name, [&] {
+    context_ = cl::Context(device_.device);
+    queue_ = cl::CommandQueue(context_, device_.device, CL_QUEUE_PROFILING_ENABLE);
+  });
+}
+
+Buffer Compute::allocate(const std::string& name, std::size_t bytes) {
+  if (bytes == 0) return {};
+  if (bytes > device_.largestBuffer)
+    throw ClError(fmt::format("buffer '{}' needs {} but {} allows {} in one allocation", name, formatBytes(bytes), device_.name,
+                              formatBytes(device_.largestBuffer)));
+  return clTry(fmt::format("allocating buffer '{}' of {}", name, formatBytes(bytes)), [&] {
+    return Buffer{name, bytes, cl::Buffer(context_, CL_MEM_READ_WRITE, bytes)};
+  });
+}
+
+Buffer Compute::upload(const std::string& name, const void* data, std::size_t bytes) {
+  Buffer buffer = allocate(name, bytes);
+  if (buffer)
+    clTry(fmt::format("uploading '{}'", name), [&] { queue_.enqueueWriteBuffer(buffer.handle, CL_TRUE, 0, bytes, data); });
+  return buffer;
+}
+
+void Compute::read(const Buffer& buffer, std::size_t offset, std::size_t bytes, void* out) {
+  if (bytes == 0) return;
+  clTry(fmt::format("reading '{}' back", buffer.name),
+        [&] { queue_.enqueueReadBuffer(buffer.handle, CL_TRUE, offset, bytes, out); });
+}
+
+void Compute::fillZero(const Buffer& buffer) {
+  if (!buffer) return;
+  clTry(fmt::format("clearing '{}'", buffer.name),
+        [&] { queue_.enqueueFillBuffer(buffer.handle, cl_uint{0}, 0, buffer.bytes / sizeof(cl_uint) * sizeof(cl_uint)); });
+}
+
+cl::Program Compute::build(const std::string& source, const std::string& options) {
+  return clTry("compiling the kernels", [&] {
+    cl::Program program(context_, source);
+    try {
+      program.build({device_.device}, options.c_str());
+    } catch (const cl::Error& e) {
+      std::string log;
+      if (e.err() == CL_BUILD_PROGRAM_FAILURE) log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.device);
+      throw ClError(fmt::format("compiling the kernels on {} ({}) failed with {}:\n{}", device_.name, options, clErrorName(e.err()), log));
+    }
+    buildLog_ = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.device);
+    return program;
+  });
+}
+
+}  // namespace whittle

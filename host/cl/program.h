@@ -1,0 +1,57 @@
+// A compute context on one device: queue, compiled program, kernels, buffers that know their names.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cl/device.h"
+#include "cl/error.h"
+
+namespace whittle {
+
+/// Device memory with a name, for messages and statistics. An empty one is passed to kernels as a null pointer.
+struct Buffer {
+  std::string name;
+  std::size_t bytes = 0;
+  cl::Buffer handle;
+
+  explicit operator bool() const { return bytes > 0; }
+};
+
+/// Owns the context and an in-order, profiling command queue of one device.
+class Compute {
+ public:
+  explicit Compute(DeviceInfo device);
+
+  const DeviceInfo& device() const { return device_; }
+  cl::CommandQueue& queue() { return queue_; }
+
+  /// Allocates; throws ClError that names the buffer, its size and the device's limit.
+  Buffer allocate(const std::string& name, std::size_t bytes);
+  /// Allocates and fills from host memory; empty data gives an empty Buffer.
+  Buffer upload(const std::string& name, const void* data, std::size_t bytes);
+  template <typename T>
+  Buffer upload(const std::string& name, const std::vector<T>& data) {
+    return upload(name, data.data(), data.size() * sizeof(T));
+  }
+  /// Blocking copy to the host.
+  void read(const Buffer& buffer, std::size_t offset, std::size_t bytes, void* out);
+  void fillZero(const Buffer& buffer);
+
+  /// Builds `source`; a failure throws ClError with the build log. Warnings of the compiler are kept in buildLog().
+  cl::Program build(const std::string& source, const std::string& options);
+  const std::string& buildLog() const { return buildLog_; }
+
+ private:
+  DeviceInfo device_;
+  cl::Context context_;
+  cl::CommandQueue queue_;
+  std::string buildLog_;
+};
+
+/// "12.5 MB", for people.
+std::string formatBytes(std::uint64_t bytes);
+
+}  // namespace whittle

@@ -1,0 +1,15 @@
+// The sub-commands. Each function adds one to the application and returns nothing; when it was chosen, its callback
+// stores the exit status: 0 done, 1 failed. Unusable input leaves as an exception and becomes status 2 in main.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace whittle::cli {
+
+void addRender(CLI::App& app, int& status);
+void addReference(CLI::App& app, int& status);
+void addInfo(CLI::App& app, int& status);
+void addDevices(CLI::App& app, int& status);
+void addCompare(CLI::App& app, int& status);
+
+}  // namespace whittle::cli

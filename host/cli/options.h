@@ -1,0 +1,38 @@
+// Options that several sub-commands share, and what they do with the scene.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/notices.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace whittle::cli {
+
+/// Where the scene comes from and what surrounds it.
+struct SceneOptions {
+  std::filesystem::path file;
+  std::string scene;       ///< name or index of a scene in the file; empty: the file's default
+  std::string background;  ///< "R,G,B" or an equirectangular image; empty: as the file says
+  bool quiet = false;
+};
+
+void addSceneOptions(CLI::App& command, SceneOptions& options);
+/// Settings that change the picture, for render, reference and info.
+void addPictureOptions(CLI::App& command, Settings& settings);
+/// Settings of the device path alone.
+void addDeviceOptions(CLI::App& command, Settings& settings);
+
+/// Loads, applies the background, prints notices to standard error (unless quiet: then warnings only).
+Scene loadScene(const SceneOptions& options, Notices& notices);
+/// The same with a Notices of its own.
+Scene loadScene(const SceneOptions& options);
+
+/// Whole seconds and rates for people: "1.2 M", "3:05".
+std::string formatCount(double count);
+std::string formatSeconds(double seconds);
+
+}  // namespace whittle::cli

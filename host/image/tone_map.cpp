@@ -1,0 +1,83 @@
+// Tone map: compression of the largest channel with a fade to white after the Khronos PBR Neutral tone mapper
+// (Lalish 2024), without its toe. Encoding: IEC 61966-2-1 through a table of the 255 borders between codes,
+// so that no rounding is left to pow().
+#include "image/tone_map.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace whittle {
+namespace {
+
+/// Share of the removed excess that fades towards white; Khronos' value.
+constexpr double kFade = 0.15;
+
+using CodeBorders = std::array<double, 255>;
+
+/// border[i]: the linear value half way (in code space) between code i and i + 1.
+CodeBorders makeBorders() {
+  CodeBorders borders{};
+  for (int i = 0; i < 255; ++i) borders[i] = srgbDecode((i + 0.5) / 255.0);
+  return borders;
+}
+
+std::uint8_t encodeByte(const CodeBorders& borders, double v) {
+  return static_cast<std::uint8_t>(std::upper_bound(borders.begin(), borders.end(), v) - borders.begin());
+}
+
+/// Writes one pixel; false if it was not finite.
+bool mapPixel(const CodeBorders& borders, const float* in, int channels, double scale, std::uint8_t* out) {
+  const int step = channels >= 3 ? 1 : 0;
+  std::array<double, 3> c{};
+  double peak = 0;
+  for (int k = 0; k < 3; ++k) {
+    const float v = in[k * step];
+    if (!std::isfinite(v)) {
+      out[0] = out[2] = 255;
+      out[1] = 0;
+      return false;
+    }
+    c[k] = std::max(0.0, v * scale);
+    peak = std::max(peak, c[k]);
+  }
+  const double mapped = rollOff(peak);
+  const double ratio = peak > 0 ? mapped / peak : 1;
+  const double keep = 1 / (kFade * (peak - mapped) + 1);
+  for (int k = 0; k < 3; ++k) out[k] = encodeByte(borders, mapped + (c[k] * ratio - mapped) * keep);
+  return true;
+}
+
+}  // namespace
+
+double rollOff(double v) {
+  constexpr double kRoom = 1 - kToneKnee;
+  return v <= kToneKnee ? v : 1 - kRoom * kRoom / (v - kToneKnee + kRoom);
+}
+
+double srgbEncode(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
+double srgbDecode(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops, std::uint64_t* nonFinite) {
+  const CodeBorders borders = makeBorders();
+  const double scale = std::exp2(static_cast<double>(exposureStops));
+  const std::size_t width = image.width;
+  std::vector<std::uint8_t> bytes(width * image.height * 3);
+  std::vector<std::uint64_t> badInRow(image.height);
+  tbb::parallel_for(0, image.height, [&](int y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t pixel = y * width + x;
+      const float* in = &image.pixels[pixel * image.channels];
+      if (!mapPixel(borders, in, image.channels, scale, &bytes[pixel * 3])) ++badInRow[y];
+    }
+  });
+  if (nonFinite != nullptr) {
+    *nonFinite = 0;
+    for (const std::uint64_t bad : badInRow) *nonFinite += bad;
+  }
+  return bytes;
+}
+
+}  // namespace whittle

@@ -1,0 +1,30 @@
+// Linear radiance to 8-bit sRGB for people to look at: exposure, a highlight roll-off, the exact sRGB curve.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/image_io.h"
+
+namespace whittle {
+
+/// Largest channel value that the tone map leaves as it is.
+inline constexpr double kToneKnee = 0.8;
+
+/// The roll-off: the identity up to kToneKnee, then 1 − d²/(v − kToneKnee + d) with d = 1 − kToneKnee, which
+/// goes on with slope 1 and approaches 1. `v` is a linear value ≥ 0 after exposure.
+double rollOff(double v);
+
+/// IEC 61966-2-1, both ways, in double; v in [0, 1].
+double srgbEncode(double v);
+double srgbDecode(double v);
+
+/// Width·height·3 bytes. The largest of the three channels goes through rollOff and the other two are scaled
+/// with it, so that hue stays where single channels would clip; what the roll-off takes away is given back as
+/// a slow fade to white. Two or fewer channels are grey, a fourth is left out. A pixel that is not finite
+/// becomes magenta (255, 0, 255) and is counted in `nonFinite` if given; negative values are 0. Rounds to the
+/// nearest code; the same bytes for any number of threads.
+std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops,
+                                  std::uint64_t* nonFinite = nullptr);
+
+}  // namespace whittle

@@ -1,0 +1,37 @@
+// What a surface does with light: the part that spreads it (met by lights) and the impulses (met by rays).
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "reference/surfel.h"
+
+namespace whittle::reference {
+
+/// BSDF for light from w_i (unit, on the viewer's side), 1/sr, without impulses and without coverage.
+Vec3 spreadingBsdf(const Surfel& surfel, const Vec3& w_i, const Vec3& w_o);
+
+/// The delta part of the BSDF: all light goes one way.
+struct Impulse {
+  Vec3 w_i;        ///< unit, from the surface
+  Vec3 magnitude;  ///< RGB factor
+  bool through;    ///< leaves on the side that the viewer is not on
+};
+
+/// At most two, each with a component > 0.
+struct Impulses {
+  std::array<Impulse, 2> items;
+  int count = 0;
+
+  void add(const Impulse& impulse) {
+    if (anyPositive(impulse.magnitude)) items[count++] = impulse;
+  }
+  std::span<const Impulse> all() const { return {items.data(), static_cast<std::size_t>(count)}; }
+};
+
+Impulses impulsesOf(const Surfel& surfel, const Vec3& w_o);
+
+/// One of them, chosen with probability in proportion to its luminance by `u` in [0,1), divided by that.
+Impulses chooseOne(const Impulses& impulses, double u);
+
+}  // namespace whittle::reference

@@ -1,0 +1,80 @@
+// Every pixel of the picture, rows in parallel. See reference.h.
+#include "reference/reference.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <limits>
+#include <mutex>
+
+#include "reference/camera.h"
+#include "reference/trace.h"
+
+namespace whittle {
+namespace {
+
+FloatImage emptyImage(const Settings& settings, int channels) {
+  const std::size_t size = static_cast<std::size_t>(settings.width) * settings.height * channels;
+  return {settings.width, settings.height, channels, std::vector<float>(size)};
+}
+
+/// What rows count for themselves, so that the sum does not depend on threads.
+struct RowCounts {
+  RayCounts rays;
+  std::uint64_t nonFinite = 0;
+};
+
+void traceRow(const reference::World& world, int y, ReferenceResult& result, RowCounts& counts) {
+  for (int x = 0; x < world.settings.width; ++x) {
+    const reference::PixelResult pixel = reference::traceOnePixel(world, x, y, counts.rays);
+    const std::size_t i = static_cast<std::size_t>(y) * world.settings.width + x;
+    for (int c = 0; c < 3; ++c) result.radiance.pixels[3 * i + c] = static_cast<float>(pixel.radiance[c]);
+    result.primitive.pixels[i] = pixel.seen ? static_cast<float>(pixel.seen->triangle) : -1.0F;
+    result.depth.pixels[i] =
+        pixel.seen ? static_cast<float>(pixel.seen->t) : std::numeric_limits<float>::infinity();
+    counts.nonFinite += pixel.nonFinite;
+  }
+}
+
+ReferenceResult render(const Scene& scene, const Settings& settings,
+                       const std::function<void(int, int)>& progress) {
+  const Camera& camera = reference::findCamera(scene, settings.camera);
+  const reference::TriangleIndex triangles(scene);
+  const reference::World world{scene, settings, triangles, camera};
+
+  ReferenceResult result;
+  result.radiance = emptyImage(settings, 3);
+  result.primitive = emptyImage(settings, 1);
+  result.depth = emptyImage(settings, 1);
+  std::vector<RowCounts> rows(settings.height);
+  std::mutex progressMutex;
+  int done = 0;
+  tbb::parallel_for(0, settings.height, [&](int y) {
+    traceRow(world, y, result, rows[y]);
+    const std::lock_guard lock(progressMutex);
+    ++done;
+    if (progress) progress(done, settings.height);
+  });
+  for (const RowCounts& row : rows) {
+    result.rays.primary += row.rays.primary;
+    result.rays.impulse += row.rays.impulse;
+    result.rays.shadow += row.rays.shadow;
+    result.nonFinite += row.nonFinite;
+  }
+  return result;
+}
+
+}  // namespace
+
+ReferenceResult renderReference(const Scene& scene, const Settings& settings,
+                                const std::function<void(int, int)>& progress) {
+  const int threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  return arena.execute([&] { return render(scene, settings, progress); });
+}
+
+}  // namespace whittle

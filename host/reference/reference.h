@@ -1,0 +1,34 @@
+// The right answer: Whitted's recursion in double precision, as close to the textbook as code can be.
+// Shares no code with the kernels; both follow host/reference/README.md.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "scene/image_io.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace whittle {
+
+struct RayCounts {
+  std::uint64_t primary = 0;
+  std::uint64_t impulse = 0;
+  std::uint64_t shadow = 0;
+  std::uint64_t total() const { return primary + impulse + shadow; }
+};
+
+struct ReferenceResult {
+  FloatImage radiance;   ///< RGB, W/(m² sr)
+  FloatImage primitive;  ///< 1 channel: triangle index hit through the pixel's first sample, -1 for none
+  FloatImage depth;      ///< 1 channel: distance in metres along that ray, +inf for none
+  RayCounts rays;
+  std::uint64_t nonFinite = 0;  ///< samples that were not finite and count as 0 radiance
+};
+
+/// Renders `scene` with the given settings (those that apply). Multi-threaded over rows; `progress(done, of)`
+/// is called now and then from one thread at a time, may be empty. Throws InputError for an unknown camera.
+ReferenceResult renderReference(const Scene& scene, const Settings& settings,
+                                const std::function<void(int, int)>& progress = {});
+
+}  // namespace whittle

@@ -1,0 +1,158 @@
+// See surfel.h.
+#include "reference/surfel.h"
+
+#include <algorithm>
+
+#include "reference/texture.h"
+
+namespace whittle::reference {
+namespace {
+
+/// Vertex attributes at a hit; an array that the scene does not have gives `missing`.
+template <class Out, class In>
+Out interpolate(const Scene& scene, const std::vector<In>& values, const Hit& hit, const Out& missing) {
+  if (values.empty()) return missing;
+  const Triangle& t = scene.triangles[hit.triangle];
+  return hit.barycentric[0] * Out(values[t.v0]) + hit.barycentric[1] * Out(values[t.v1]) +
+         hit.barycentric[2] * Out(values[t.v2]);
+}
+
+Vec4 textureAt(const Scene& scene, const TextureSlot& slot, const Hit& hit,
+               Encoding encoding = Encoding::Linear) {
+  if (!slot.used()) return Vec4(1);
+  return sampleTexture(scene, slot, interpolate(scene, slot.uvSet == 1 ? scene.uv1 : scene.uv0, hit, Vec2(0)),
+                       encoding);
+}
+
+const Material& materialOf(const Scene& scene, const Hit& hit) {
+  return scene.materials[scene.triangles[hit.triangle].material];
+}
+
+Vec3 geometricNormal(const TriangleIndex& triangles, const Hit& hit) {
+  const auto [p0, p1, p2] = triangles.corners(hit.triangle);
+  return glm::normalize(glm::cross(p1 - p0, p2 - p0));
+}
+
+Vec3 interpolatedNormal(const Scene& scene, const Hit& hit, const Vec3& n_g) {
+  if (scene.normals.empty()) return n_g;
+  const Triangle& t = scene.triangles[hit.triangle];
+  for (const std::uint32_t v : {t.v0, t.v1, t.v2}) {
+    if (scene.normals[v] == glm::vec3(0)) return n_g;
+  }
+  const Vec3 n = glm::normalize(interpolate(scene, scene.normals, hit, n_g));
+  return isFinite(n) ? n : n_g;
+}
+
+/// `n` tilted by the material's normal map; `n` itself where there is none or no tangent to lay it along.
+Vec3 mappedNormal(const Scene& scene, const Material& material, const Hit& hit, const Vec3& n) {
+  if (!material.normalTexture.used() || scene.tangents.empty()) return n;
+  const Vec3 tangent(interpolate(scene, scene.tangents, hit, Vec4(0)));
+  const Vec3 T = glm::normalize(tangent - n * glm::dot(n, tangent));
+  const Vec3 B = static_cast<double>(scene.tangents[scene.triangles[hit.triangle].v0].w) * glm::cross(n, T);
+  Vec3 t = Vec3(textureAt(scene, material.normalTexture, hit)) * 2.0 - 1.0;
+  t.x *= material.normalScale;
+  t.y *= material.normalScale;
+  const Vec3 mapped = glm::normalize(T * t.x + B * t.y + n * t.z);
+  return isFinite(mapped) ? mapped : n;
+}
+
+double bumpAt(const Settings& settings, const TriangleIndex& triangles, const Hit& hit) {
+  if (settings.bump) return *settings.bump;
+  const auto corners = triangles.corners(hit.triangle);
+  Vec3 size(0);
+  for (int i = 0; i < 3; ++i) size += hit.barycentric[i] * glm::abs(corners[i]);
+  return std::max(0x1p-20 * maxComponent(size), 1e-30);
+}
+
+double metallicAt(const Scene& scene, const Material& material, const Hit& hit) {
+  return std::clamp(material.metallic * textureAt(scene, material.metallicRoughnessTexture, hit).b, 0.0, 1.0);
+}
+
+double transmissionAt(const Scene& scene, const Material& material, const Hit& hit) {
+  if (material.unlit) return 0;
+  return std::clamp(material.transmission * textureAt(scene, material.transmissionTexture, hit).r, 0.0, 1.0);
+}
+
+TintedFresnel fresnelAt(const Scene& scene, const Material& material, const Hit& hit) {
+  return TintedFresnel(material.ior, material.specular * textureAt(scene, material.specularTexture, hit).a,
+                       Vec3(material.specularColor) *
+                           Vec3(textureAt(scene, material.specularColorTexture, hit, Encoding::Srgb)));
+}
+
+/// Index beyond over index here. A sheet looks the same from both sides; 0 (all is reflected) stays 0.
+double relativeIndex(const Material& material, bool front) {
+  const double ior = material.ior;
+  return front || !material.volume || ior == 0 ? ior : 1 / ior;
+}
+
+}  // namespace
+
+Vec4 baseColorAt(const Scene& scene, const Hit& hit) {
+  const Material& material = materialOf(scene, hit);
+  Vec4 color = Vec4(material.baseColor) * textureAt(scene, material.baseColorTexture, hit, Encoding::Srgb) *
+               interpolate(scene, scene.colors, hit, Vec4(1));
+  color.a = material.alphaMode == AlphaMode::Opaque ? 1.0 : std::clamp(color.a, 0.0, 1.0);
+  return color;
+}
+
+bool passesMask(const Scene& scene, const Hit& hit) {
+  const Material& material = materialOf(scene, hit);
+  return material.alphaMode != AlphaMode::Mask || !(baseColorAt(scene, hit).a < material.alphaCutoff);
+}
+
+Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIndex& triangles,
+                  const Ray& ray, const Hit& hit) {
+  const Material& material = materialOf(scene, hit);
+  const Vec3 w_o = -ray.direction;
+  const Vec3 n_g = geometricNormal(triangles, hit);
+  const auto corners = triangles.corners(hit.triangle);
+  const Vec4 color = baseColorAt(scene, hit);
+
+  Surfel surfel{
+      .position =
+          hit.barycentric[0] * corners[0] + hit.barycentric[1] * corners[1] + hit.barycentric[2] * corners[2],
+      .facing = n_g,
+      .n = mappedNormal(scene, material, hit, interpolatedNormal(scene, hit, n_g)),
+      .front = glm::dot(n_g, w_o) > 0,
+      .bump = bumpAt(settings, triangles, hit),
+      .baseColor = Vec3(color),
+      .alpha = material.alphaMode == AlphaMode::Blend ? color.a : 1.0,
+      .metallic = metallicAt(scene, material, hit),
+      .roughness = std::clamp(material.roughness * textureAt(scene, material.metallicRoughnessTexture, hit).g,
+                              0.0, 1.0),
+      .transmission = transmissionAt(scene, material, hit),
+      .smooth = false,
+      .volume = material.volume,
+      .unlit = material.unlit,
+      .fresnel = fresnelAt(scene, material, hit),
+      .eta = 1,
+      .emission = Vec3(0),
+      .sigma_a = Vec3(material.sigma_a)};
+  surfel.smooth = surfel.roughness < static_cast<double>(settings.mirrorRoughness);
+  surfel.eta = relativeIndex(material, surfel.front);
+  if (!surfel.front) {
+    surfel.facing = -surfel.facing;
+    surfel.n = -surfel.n;
+  }
+  if (glm::dot(surfel.n, w_o) <= 0) surfel.n = surfel.facing;
+  if (surfel.front || material.doubleSided) {
+    surfel.emission =
+        Vec3(material.emission) * Vec3(textureAt(scene, material.emissionTexture, hit, Encoding::Srgb));
+  }
+  return surfel;
+}
+
+Vec3 shadowTransmittance(const Scene& scene, const TriangleIndex& triangles, const Ray& ray, const Hit& hit) {
+  const Material& material = materialOf(scene, hit);
+  if (!passesMask(scene, hit)) return Vec3(1);
+  const Vec4 color = baseColorAt(scene, hit);
+  const double a = material.alphaMode == AlphaMode::Blend ? color.a : 1.0;
+  const double transmitted =
+      a * transmissionAt(scene, material, hit) * (1 - metallicAt(scene, material, hit));
+  if (transmitted == 0) return Vec3(1 - a);
+  const double cosine = std::min(1.0, std::abs(glm::dot(geometricNormal(triangles, hit), ray.direction)));
+  return glm::clamp(1 - a + transmitted * Vec3(color) * (1 - dielectricReflectance(cosine, material.ior)),
+                    0.0, 1.0);
+}
+
+}  // namespace whittle::reference

@@ -1,0 +1,43 @@
+// The local surface at a hit: position, normals, and the material with its textures looked up.
+#pragma once
+
+#include "reference/fresnel.h"
+#include "reference/triangle_index.h"
+#include "scene/settings.h"
+
+namespace whittle::reference {
+
+struct Surfel {
+  Vec3 position;   ///< world, metres
+  Vec3 facing;     ///< N_g: unit geometric normal on the side of the viewer
+  Vec3 n;          ///< unit shading normal, n·w_o > 0
+  bool front;      ///< seen from the side of the counter-clockwise winding
+  double bump;     ///< metres between `position` and the origins of secondary rays
+  Vec3 baseColor;  ///< linear
+  double alpha;    ///< coverage, in [0,1]
+  double metallic;
+  double roughness;
+  double transmission;
+  bool smooth;  ///< reflects as a mirror
+  bool volume;  ///< bounds a solid: rays refract
+  bool unlit;
+  TintedFresnel fresnel;
+  double eta;     ///< index beyond over index on the viewer's side
+  Vec3 emission;  ///< towards the viewer, W/(m² sr)
+  Vec3 sigma_a;   ///< 1/m, of the solid behind the front
+};
+
+/// The surface as seen along `ray`, which hits it.
+Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIndex& triangles,
+                  const Ray& ray, const Hit& hit);
+
+/// Base colour and coverage at a hit; coverage as the alpha mode has it (1 for opaque, unchanged for MASK).
+Vec4 baseColorAt(const Scene& scene, const Hit& hit);
+
+/// Whether the alpha mask leaves this hit standing.
+bool passesMask(const Scene& scene, const Hit& hit);
+
+/// What a shadow ray keeps, per channel, of the light that crosses the surface at a hit; 0: nothing.
+Vec3 shadowTransmittance(const Scene& scene, const TriangleIndex& triangles, const Ray& ray, const Hit& hit);
+
+}  // namespace whittle::reference

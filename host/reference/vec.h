@@ -1,0 +1,26 @@
+// Double-precision vectors and the few helpers the reference needs beside glm.
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+
+namespace whittle::reference {
+
+using Vec2 = glm::dvec2;
+using Vec3 = glm::dvec3;
+using Vec4 = glm::dvec4;
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+inline double square(double x) { return x * x; }
+
+inline bool isFinite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+inline double maxComponent(const Vec3& v) { return std::fmax(v.x, std::fmax(v.y, v.z)); }
+
+inline bool anyPositive(const Vec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+
+/// Rec. 709 luminance of linear RGB.
+inline double luminance(const Vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+}  // namespace whittle::reference

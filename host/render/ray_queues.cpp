@@ -1,0 +1,96 @@
+// Queue memory and the cutting of queues into segments.
+#include "render/ray_queues.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "kernels/shared/layout.h"
+
+namespace whittle {
+
+RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity, std::uint32_t compactChunk)
+    : compute_(compute), capacity_(capacity), segmentLimit_(features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity) {
+  // A packet reads up to seven entries past its segment (into the next plane, or the padding) and ignores them. It
+  // writes whole groups of eight from entry 0, which stay inside a plane because the capacity is a multiple of eight.
+  assert(capacity % 8 == 0);
+  const auto planes = [&](const char* name, std::size_t count) {
+    return compute.allocate(name, (count * capacity + QUEUE_PADDING) * sizeof(float));
+  };
+  const bool shadowRays = features.has(Feature::SHADOWS);
+  const bool impulseRays = features.has(Feature::IMPULSES);
+  hits = planes("hits", HIT_PLANES);
+  entryRadiance = planes("entryRadiance", 3);
+  sampleRadiance = planes("sampleRadiance", 3);
+  if (shadowRays) shadows = planes("shadows", SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
+  if (impulseRays) impulses = planes("impulses", 2 * IMPULSE_PLANES);
+  if (shadowRays || impulseRays) {
+    flags = planes("flags", 1);
+    totals = compute.allocate("totals", (capacity / compactChunk + 2) * sizeof(std::uint32_t));
+    sum = compute.allocate("sum", sizeof(std::uint32_t));
+  }
+}
+
+Buffer RayQueues::acquire() {
+  if (free_.empty()) {
+    ++queuesMade_;
+    return compute_.allocate("rays", (static_cast<std::size_t>(RAY_PLANES) * capacity_ + QUEUE_PADDING) * sizeof(float));
+  }
+  Buffer queue = std::move(free_.back());
+  free_.pop_back();
+  return queue;
+}
+
+std::vector<std::uint32_t> RayQueues::readSlots(const Buffer& queue, std::uint32_t begin, std::uint32_t count) const {
+  std::vector<std::uint32_t> slots(count);
+  const std::size_t offset = (static_cast<std::size_t>(RAY_SLOT) * capacity_ + begin) * sizeof(std::uint32_t);
+  compute_.read(queue, offset, count * sizeof(std::uint32_t), slots.data());
+  return slots;
+}
+
+std::vector<Segment> RayQueues::cut(const Buffer& queue, std::uint32_t count, bool mayHaveLongRuns) const {
+  if (mayHaveLongRuns) return cutLongRuns(readSlots(queue, 0, count));
+  std::vector<Segment> segments;
+  std::uint32_t begin = 0;
+  while (count - begin > segmentLimit_) {
+    // The last sample boundary at or before the limit: no run is longer than LONG_RUN here.
+    const std::uint32_t end = begin + segmentLimit_;
+    const std::uint32_t window = std::min<std::uint32_t>(LONG_RUN + 1, segmentLimit_);
+    const auto slots = readSlots(queue, end - window, window + 1);
+    std::uint32_t at = window;
+    while (at > 0 && slots[at] == slots[at - 1]) --at;
+    assert(at > 0 && "a run longer than LONG_RUN that nobody reported");
+    segments.push_back({begin, end - window + at});
+    begin = segments.back().end;
+  }
+  segments.push_back({begin, count});
+  return segments;
+}
+
+std::vector<Segment> RayQueues::cutLongRuns(const std::vector<std::uint32_t>& slots) const {
+  const auto count = static_cast<std::uint32_t>(slots.size());
+  std::vector<Segment> segments;
+  std::uint32_t begin = 0;  // of the segment being filled
+  for (std::uint32_t run = 0; run < count;) {
+    std::uint32_t runEnd = run + 1;
+    while (runEnd < count && slots[runEnd] == slots[run]) ++runEnd;
+    const bool isLong = runEnd - run > LONG_RUN;
+    if (begin < run && (isLong || runEnd - begin > segmentLimit_)) {
+      segments.push_back({begin, run});
+      begin = run;
+    }
+    if (isLong) {
+      for (; begin < runEnd; begin = segments.back().end) segments.push_back({begin, std::min(begin + LONG_RUN, runEnd)});
+    }
+    run = runEnd;
+  }
+  if (begin < count) segments.push_back({begin, count});
+  return segments;
+}
+
+void RayQueues::report(std::vector<BufferStats>& out) const {
+  for (const Buffer* b : {&hits, &entryRadiance, &sampleRadiance, &shadows, &shadowQueue, &impulses, &flags, &totals, &sum})
+    if (*b) out.push_back({b->name, "queues", b->bytes});
+  if (!free_.empty()) out.push_back({"rays", "queues", free_.front().bytes * queuesMade_});
+}
+
+}  // namespace whittle

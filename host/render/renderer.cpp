@@ -1,0 +1,268 @@
+// Sets a render up, runs its passes and gathers its statistics.
+#include "render/renderer.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <future>
+
+#include "bvh/tri_tree.h"
+#include "cl/device.h"
+#include "cl/kernel_source.h"
+#include "cl/program.h"
+#include "render/film.h"
+#include "render/pixel_order.h"
+#include "render/wavefront.h"
+#include "scene/input_error.h"
+
+namespace whittle {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+void copy3(float* out, const glm::vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+
+device::DeviceCamera cameraToDevice(const Camera& camera, const Settings& s) {
+  device::DeviceCamera d{};
+  copy3(d.position, camera.position);
+  copy3(d.right, camera.right);
+  copy3(d.up, camera.up);
+  copy3(d.forward, camera.forward);
+  const double aspect = static_cast<double>(s.width) / s.height;
+  const double half = camera.orthographic ? camera.ymag : std::tan(0.5 * static_cast<double>(camera.yfov));
+  d.scaleX = static_cast<float>(aspect * half);
+  d.scaleY = static_cast<float>(half);
+  d.orthographic = camera.orthographic;
+  d.seed = s.seed;
+  d.width = static_cast<std::uint32_t>(s.width);
+  d.height = static_cast<std::uint32_t>(s.height);
+  d.raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel);
+  d.sampler = static_cast<std::uint32_t>(s.sampler);
+  return d;
+}
+
+device::RenderConstants constantsToDevice(const Scene& scene, const Settings& s) {
+  device::RenderConstants c{};
+  copy3(c.background, scene.background.radiance);
+  c.bump = s.bump.value_or(-1.0F);
+  c.backgroundWidth = scene.background.width;
+  c.backgroundHeight = scene.background.height;
+  c.mirrorRoughness = s.mirrorRoughness;
+  c.seed = s.seed;
+  return c;
+}
+
+TriTree buildTree(const Scene& scene, bool wanted) {
+  TriTree tree;
+  if (wanted) {
+    std::vector<glm::uvec3> corners;
+    corners.reserve(scene.triangles.size());
+    for (const auto& t : scene.triangles) corners.emplace_back(t.v0, t.v1, t.v2);
+    return buildTriTree(scene.positions, corners);
+  }
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) tree.order.push_back(i);
+  return tree;
+}
+
+/// Stages in the program, in pipeline order.
+const std::vector<std::string>& stageFiles() {
+  static const std::vector<std::string> files{"raygen.cl",  "intersect.cl",  "shade.cl", "compact.cl",
+                                              "occlude.cl", "accumulate.cl", "film.cl"};
+  return files;
+}
+
+std::uint32_t roundedCapacity(const Settings& s) {
+  const std::uint64_t samples = static_cast<std::uint64_t>(s.width) * s.height * s.raysPerPixel;
+  // Never more than the picture has samples (twice, for branching), never fewer than two long runs.
+  const std::uint64_t wanted = std::min<std::uint64_t>(static_cast<std::uint64_t>(s.wavefront), 2 * samples);
+  return static_cast<std::uint32_t>((std::max<std::uint64_t>(wanted, 2 * LONG_RUN) + 63) / 64 * 64);
+}
+
+void checkLimits(const Settings& s) {
+  if (s.width < 1 || s.height < 1 || s.width > 65535 || s.height > 65535)
+    throw InputError(fmt::format("--width/--height: {}×{} is not between 1×1 and 65535×65535", s.width, s.height));
+  if (s.bounces < 1) throw InputError("--bounces: at least 1");
+  if (s.raysPerPixel < 1) throw InputError("--rays-per-pixel: at least 1");
+}
+
+/// Everything a render holds between its phases.
+class Session {
+ public:
+  Session(const Scene& scene, const Settings& settings, const RenderHooks& hooks)
+      : scene_(scene), settings_(settings), hooks_(hooks) {
+    checkLimits(settings_);
+    cameraIndex_ = findCamera(scene_, settings_.camera);
+    say("opening the device");
+    limitCpuThreads(settings_.threads);
+    compute_.emplace(selectDevice(listDevices(), settings_.device));
+    if (settings_.threads > 0) tbbLimit_.emplace(tbb::global_control::max_allowed_parallelism, settings_.threads);
+    const bool cpu = compute_->device().kind == "cpu";
+    features_ = SceneFeatures::analyse(scene_, settings_, {cpu});
+    compactChunk_ = cpu ? 1024 : 32;
+    workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : (cpu ? 16 : 64);
+    if (static_cast<std::uint64_t>(workGroup_) > compute_->device().maxWorkGroup)
+      throw InputError(fmt::format("--work-group: {} allows at most {}", compute_->device().name, compute_->device().maxWorkGroup));
+  }
+
+  RenderResult run() {
+    prepare();
+    passes();
+    return finish();
+  }
+
+ private:
+  void say(const std::string& phase) const {
+    if (hooks_.phase) hooks_.phase(phase);
+  }
+
+  void prepare() {
+    say("compiling kernels");
+    auto program = std::async(std::launch::async, [this] {
+      const auto start = Clock::now();
+      const std::string options = fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}", features_.bits(), compactChunk_);
+      cl::Program built = compute_->build(assembleKernelSource(stageFiles(), hooks_.kernelFolder), options);
+      stats_.time.compile = secondsSince(start);
+      return built;
+    });
+    auto start = Clock::now();
+    const TriTree tree = buildTree(scene_, features_.has(Feature::TREE));
+    stats_.time.build = secondsSince(start);
+    start = Clock::now();
+    deviceScene_ = uploadScene(*compute_, scene_, tree, features_);
+    const auto pixels = static_cast<std::size_t>(settings_.width) * settings_.height;
+    pixelOrder_ = compute_->upload("pixelOrder", makePixelOrder(static_cast<std::uint32_t>(settings_.width), static_cast<std::uint32_t>(settings_.height)));
+    film_ = compute_->allocate("film", pixels * FILM_PLANES * sizeof(float));
+    compute_->fillZero(film_);
+    if (features_.has(Feature::AOVS)) aovs_ = compute_->allocate("aovs", pixels * AOV_PLANES * sizeof(float));
+    queues_.emplace(*compute_, features_, roundedCapacity(settings_), compactChunk_);
+    stats_.time.upload = secondsSince(start);
+    stages_.emplace(*compute_, program.get(), workGroup_);
+    const WavefrontSetup setup{features_, deviceScene_, cameraToDevice(scene_.cameras[cameraIndex_], settings_),
+                               constantsToDevice(scene_, settings_), static_cast<std::uint32_t>(settings_.bounces), compactChunk_};
+    wavefront_.emplace(*compute_, *stages_, *queues_, setup, pixelOrder_, film_, aovs_);
+  }
+
+  /// All samples in one pass, or in doubling passes where a limit or an error target wants to look in between.
+  void passes() {
+    say("rendering");
+    const auto start = Clock::now();
+    const bool looks = settings_.timeLimit > 0.0 || settings_.targetError > 0.0;
+    const int total = settings_.raysPerPixel;
+    const std::uint64_t pixels = static_cast<std::uint64_t>(settings_.width) * settings_.height;
+    while (samplesDone_ < total) {
+      const int pass = looks ? std::min(std::max(1, samplesDone_), total - samplesDone_) : total;
+      const std::uint64_t before = pixels * static_cast<std::uint64_t>(samplesDone_);
+      wavefront_->trace(static_cast<std::uint32_t>(samplesDone_), static_cast<std::uint32_t>(pass), [&](std::uint64_t done) {
+        const auto& t = wavefront_->tally();
+        if (hooks_.progress)
+          hooks_.progress({before + done, pixels * static_cast<std::uint64_t>(total), secondsSince(start), t.primary + t.impulse + t.shadow});
+      });
+      samplesDone_ += pass;
+      if (!looks || samplesDone_ < 2) continue;
+      const double estimate = estimateError(readFilm(), samplesDone_);
+      stats_.error.push_back({secondsSince(start), samplesDone_, estimate});
+      if (settings_.timeLimit > 0.0 && secondsSince(start) >= settings_.timeLimit) break;
+      if (settings_.targetError > 0.0 && estimate <= settings_.targetError) break;
+    }
+    clTry("waiting for the last kernels", [&] { compute_->queue().finish(); });
+    stats_.time.render = secondsSince(start);
+  }
+
+  FilmSums readFilm() {
+    FilmSums sums{settings_.width, settings_.height, {}};
+    sums.planes.resize(static_cast<std::size_t>(settings_.width) * settings_.height * FILM_PLANES);
+    compute_->read(film_, 0, sums.planes.size() * sizeof(float), sums.planes.data());
+    return sums;
+  }
+
+  RenderResult finish() {
+    RenderResult result;
+    const FilmSums sums = readFilm();
+    result.radiance = resolveFilm(sums, samplesDone_);
+    if (stats_.error.empty() && samplesDone_ >= 2)
+      stats_.error.push_back({stats_.time.render, samplesDone_, estimateError(sums, samplesDone_)});
+    if (aovs_) {
+      std::vector<float> planes(aovs_.bytes / sizeof(float));
+      compute_->read(aovs_, 0, aovs_.bytes, planes.data());
+      result.aovs = splitAovs(settings_.width, settings_.height, planes);
+    }
+    fillStats();
+    result.stats = std::move(stats_);
+    return result;
+  }
+
+  void fillStats() {
+    stats_.scene.file = scene_.file;
+    stats_.scene.triangles = scene_.triangles.size();
+    stats_.scene.droppedTriangles = scene_.droppedTriangles;
+    stats_.scene.materials = scene_.materials.size();
+    stats_.scene.lights = scene_.lights.size();
+    stats_.scene.textures = scene_.images.size();
+    stats_.settings = settings_;
+    stats_.settings.raysPerPixel = samplesDone_;
+    stats_.settings.wavefront = static_cast<int>(queues_->capacity());
+    stats_.settings.workGroup = workGroup_;
+    stats_.searchUsed = features_.has(Feature::TREE) ? "tree" : "array";
+    const DeviceInfo& d = compute_->device();
+    stats_.device = {d.platform, d.name, d.version, d.driver, d.computeUnits,
+                     settings_.threads > 0 ? settings_.threads : static_cast<int>(d.computeUnits)};
+    for (const auto& line : features_.lines()) {
+      if (line.used)
+        stats_.featuresUsed.push_back(line.text);
+      else
+        stats_.featuresLeftOut.emplace_back(line.text, line.reason);
+    }
+    const RayTally& t = wavefront_->tally();
+    stats_.rays = {t.primary, t.impulse, t.shadow};
+    stats_.dropped = t.produced - t.finished;
+    stats_.nonFinite = wavefront_->nonFinite();
+    stats_.stages = stages_->stats();
+    deviceScene_.report(stats_.buffers);
+    queues_->report(stats_.buffers);
+    for (const Buffer* b : {&pixelOrder_, &film_, &aovs_})
+      if (*b) stats_.buffers.push_back({b->name, "film", b->bytes});
+  }
+
+  const Scene& scene_;
+  Settings settings_;
+  const RenderHooks& hooks_;
+  std::size_t cameraIndex_ = 0;
+  SceneFeatures features_;
+  std::uint32_t compactChunk_ = 0;
+  int workGroup_ = 0;
+  int samplesDone_ = 0;
+  Stats stats_;
+  std::optional<tbb::global_control> tbbLimit_;
+  std::optional<Compute> compute_;
+  DeviceScene deviceScene_;
+  Buffer pixelOrder_, film_, aovs_;
+  std::optional<RayQueues> queues_;
+  std::optional<StageRunner> stages_;
+  std::optional<Wavefront> wavefront_;
+};
+
+}  // namespace
+
+std::size_t findCamera(const Scene& scene, const std::string& selector) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(selector.data(), selector.data() + selector.size(), index);
+  if (error == std::errc{} && end == selector.data() + selector.size() && index < scene.cameras.size()) return index;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+    if (scene.cameras[i].name == selector) return i;
+  std::string names;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+    names += fmt::format("{}{} '{}'", i ? ", " : "", i, scene.cameras[i].name);
+  throw InputError(fmt::format("--camera: {} has no camera '{}'; it has {}", scene.file, selector, names));
+}
+
+RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks) {
+  return Session(scene, settings, hooks).run();
+}
+
+}  // namespace whittle

@@ -1,0 +1,43 @@
+// One render from a loaded scene to linear pixels: analysis, tree, kernels, upload, passes, film.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "render/stats.h"
+#include "scene/image_io.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace whittle {
+
+struct RenderProgress {
+  std::uint64_t samplesDone = 0, samplesTotal = 0;
+  double seconds = 0.0;  ///< since the first ray
+  std::uint64_t rays = 0;
+};
+
+struct RenderResult {
+  FloatImage radiance;                     ///< RGB, W/(m² sr)
+  std::map<std::string, FloatImage> aovs;  ///< depth (1 channel, m), primitive (1), normal (3, world), albedo (3)
+  Stats stats;                             ///< time.load, time.write and time.total are the caller's to fill
+};
+
+struct RenderHooks {
+  std::function<void(const RenderProgress&)> progress;       ///< now and then, may be empty
+  std::function<void(const std::string&)> phase;             ///< "compiling kernels", … may be empty
+  std::optional<std::filesystem::path> kernelFolder;         ///< kernels from here instead of the binary
+};
+
+/// Renders. The same scene and settings on the same device give the same bits, whatever the threads, work-group and
+/// wavefront size. Throws ClError, InputError (unknown camera, picture too large) or std::invalid_argument (device).
+RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks = {});
+
+/// The camera with this name or index; throws InputError that lists what there is.
+std::size_t findCamera(const Scene& scene, const std::string& selector);
+
+}  // namespace whittle

@@ -1,0 +1,67 @@
+// Launches the stages' kernels and keeps their times. A stage has one name: kernel, file, host method, profiler label.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <unordered_map>
+#include <vector>
+
+#include "cl/program.h"
+#include "render/device_scene.h"
+#include "render/stats.h"
+
+namespace whittle {
+
+class StageRunner {
+ public:
+  /// `workGroup` work items at a time; every launch of a kernel uses the same, because PoCL compiles each anew.
+  StageRunner(Compute& compute, cl::Program program, int workGroup);
+
+  /// Runs `kernel` over `workItems` work items. `items` is what statistics count. Arguments in the kernel's order:
+  /// Buffers (empty ones become null pointers), a DeviceScene (expands to SCENE_PARAMS), or plain values.
+  template <typename... Args>
+  void run(const std::string& kernel, std::uint64_t workItems, std::uint64_t items, const Args&... args) {
+    if (workItems == 0) return;
+    cl::Kernel& k = find(kernel);
+    cl_uint index = 0;
+    (set(k, kernel, index, args), ...);
+    launch(kernel, k, workItems, items);
+  }
+
+  /// Adds the times of finished launches to the statistics; the queue must be idle.
+  void collect();
+  std::vector<StageStats> stats();
+
+ private:
+  struct Launch {
+    std::size_t stage;
+    cl::Event event;
+  };
+
+  cl::Kernel& find(const std::string& name);
+  std::size_t stageIndex(const std::string& name);
+  void launch(const std::string& name, cl::Kernel& kernel, std::uint64_t workItems, std::uint64_t items);
+  void setBytes(cl::Kernel& kernel, const std::string& name, cl_uint index, std::size_t bytes, const void* value);
+  void setBuffer(cl::Kernel& kernel, const std::string& name, cl_uint index, const Buffer& buffer);
+
+  void set(cl::Kernel& k, const std::string& name, cl_uint& index, const Buffer& b) { setBuffer(k, name, index++, b); }
+  void set(cl::Kernel& k, const std::string& name, cl_uint& index, const DeviceScene& scene) {
+    for (const Buffer* b : scene.buffers()) setBuffer(k, name, index++, *b);
+    setBytes(k, name, index++, sizeof(scene.triangleCount), &scene.triangleCount);
+  }
+  template <typename T>
+  void set(cl::Kernel& k, const std::string& name, cl_uint& index, const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    setBytes(k, name, index++, sizeof(T), &value);
+  }
+
+  Compute& compute_;
+  cl::Program program_;
+  std::size_t workGroup_;
+  std::unordered_map<std::string, cl::Kernel> kernels_;
+  std::vector<StageStats> stages_;
+  std::vector<Launch> launches_;
+};
+
+}  // namespace whittle

@@ -1,0 +1,88 @@
+// Statistics as JSON; the names are a contract with scripts.
+#include "render/stats.h"
+
+namespace whittle {
+
+const char* toString(Search search) {
+  return search == Search::Auto ? "auto" : (search == Search::Tree ? "tree" : "array");
+}
+const char* toString(Sampler sampler) {
+  return sampler == Sampler::Random ? "random" : (sampler == Sampler::Stratified ? "stratified" : "sobol");
+}
+const char* toString(ImpulseMode mode) { return mode == ImpulseMode::All ? "all" : "one"; }
+const char* toString(Lanes lanes) { return lanes == Lanes::Auto ? "auto" : (lanes == Lanes::One ? "1" : "8"); }
+
+nlohmann::ordered_json settingsToJson(const Settings& s) {
+  return {{"width", s.width},
+          {"height", s.height},
+          {"camera", s.camera},
+          {"exposure", s.exposure},
+          {"bounces", s.bounces},
+          {"raysPerPixel", s.raysPerPixel},
+          {"shadows", s.shadows},
+          {"search", toString(s.search)},
+          {"sampler", toString(s.sampler)},
+          {"seed", s.seed},
+          {"impulses", toString(s.impulses)},
+          {"device", s.device},
+          {"threads", s.threads},
+          {"lanes", toString(s.lanes)},
+          {"wavefront", s.wavefront},
+          {"workGroup", s.workGroup},
+          {"bump", s.bump ? nlohmann::ordered_json(*s.bump) : nlohmann::ordered_json(nullptr)},
+          {"mirrorRoughness", s.mirrorRoughness},
+          {"keepAllFeatures", s.keepAllFeatures},
+          {"targetError", s.targetError},
+          {"timeLimit", s.timeLimit}};
+}
+
+namespace {
+
+nlohmann::ordered_json memoryToJson(const std::vector<BufferStats>& buffers) {
+  nlohmann::ordered_json memory;
+  std::uint64_t total = 0;
+  for (const char* group : {"tree", "triangles", "queues", "textures", "film"}) {
+    std::uint64_t sum = 0;
+    for (const auto& b : buffers)
+      if (b.group == group) sum += b.bytes;
+    memory[group] = sum;
+    total += sum;
+  }
+  memory["total"] = total;
+  for (const auto& b : buffers) memory["buffers"].push_back({{"name", b.name}, {"bytes", b.bytes}});
+  return memory;
+}
+
+}  // namespace
+
+nlohmann::ordered_json statsToJson(const Stats& s) {
+  nlohmann::ordered_json json;
+  json["scene"] = {{"file", s.scene.file},           {"triangles", s.scene.triangles},
+                   {"droppedTriangles", s.scene.droppedTriangles}, {"materials", s.scene.materials},
+                   {"lights", s.scene.lights},       {"textures", s.scene.textures}};
+  json["settings"] = settingsToJson(s.settings);
+  json["settings"]["searchUsed"] = s.searchUsed;
+  json["device"] = {{"platform", s.device.platform}, {"name", s.device.name},
+                    {"version", s.device.version},   {"driver", s.device.driver},
+                    {"computeUnits", s.device.computeUnits}, {"threads", s.device.threads}};
+  json["features"]["used"] = s.featuresUsed;
+  json["features"]["leftOut"] = nlohmann::ordered_json::array();
+  for (const auto& [name, reason] : s.featuresLeftOut)
+    json["features"]["leftOut"].push_back({{"name", name}, {"reason", reason}});
+  json["rays"] = {{"primary", s.rays.primary}, {"impulse", s.rays.impulse}, {"shadow", s.rays.shadow}, {"total", s.rays.total()}};
+  json["time"] = {{"load", s.time.load},     {"build", s.time.build},   {"compile", s.time.compile}, {"upload", s.time.upload},
+                  {"render", s.time.render}, {"write", s.time.write},   {"total", s.time.total}};
+  json["stages"] = nlohmann::ordered_json::array();
+  for (const auto& stage : s.stages)
+    json["stages"].push_back({{"name", stage.name}, {"launches", stage.launches}, {"seconds", stage.seconds}, {"items", stage.items}});
+  json["memory"] = memoryToJson(s.buffers);
+  json["error"] = nlohmann::ordered_json::array();
+  for (const auto& e : s.error)
+    json["error"].push_back({{"seconds", e.seconds}, {"raysPerPixel", e.raysPerPixel}, {"estimate", e.estimate}, {"rmse", nullptr}});
+  json["biasBound"] = nullptr;
+  json["nonFinite"] = s.nonFinite;
+  json["dropped"] = s.dropped;
+  return json;
+}
+
+}  // namespace whittle

@@ -1,0 +1,70 @@
+// Everything a render can say about itself, once: printed by --profile, written by --stats.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/settings.h"
+
+namespace whittle {
+
+struct StageStats {
+  std::string name;  ///< = kernel = file = host method
+  std::uint64_t launches = 0;
+  double seconds = 0.0;  ///< on the device, from its event counters
+  std::uint64_t items = 0;  ///< rays, entries or pixels worked on, not padded work items
+};
+
+struct BufferStats {
+  std::string name;
+  std::string group;  ///< tree, triangles, queues, textures, film
+  std::uint64_t bytes = 0;
+};
+
+struct ErrorPoint {
+  double seconds = 0.0;
+  int raysPerPixel = 0;
+  double estimate = 0.0;  ///< standard error of the picture: RMS over pixels of the luminance mean's, W/(m² sr)
+};
+
+struct Stats {
+  struct {
+    std::string file;
+    std::uint64_t triangles = 0, droppedTriangles = 0, materials = 0, lights = 0, textures = 0;
+  } scene;
+  Settings settings;      ///< as used: camera resolved, raysPerPixel reached
+  std::string searchUsed;
+  struct {
+    std::string platform, name, version, driver;
+    unsigned computeUnits = 0;
+    int threads = 0;
+  } device;
+  std::vector<std::string> featuresUsed;
+  std::vector<std::pair<std::string, std::string>> featuresLeftOut;  ///< name, reason
+  struct {
+    std::uint64_t primary = 0, impulse = 0, shadow = 0;
+    std::uint64_t total() const { return primary + impulse + shadow; }
+  } rays;
+  struct {
+    double load = 0, build = 0, compile = 0, upload = 0, render = 0, write = 0, total = 0;  ///< seconds
+  } time;
+  std::vector<StageStats> stages;
+  std::vector<BufferStats> buffers;
+  std::vector<ErrorPoint> error;
+  std::uint64_t nonFinite = 0;  ///< samples counted as 0 because a component was not finite
+  std::uint64_t dropped = 0;    ///< rays produced minus rays finished; anything but 0 is a bug
+};
+
+/// One key for each setting, camelCase, as the statistics file names them.
+nlohmann::ordered_json settingsToJson(const Settings& settings);
+/// The statistics file.
+nlohmann::ordered_json statsToJson(const Stats& stats);
+
+const char* toString(Search search);
+const char* toString(Sampler sampler);
+const char* toString(ImpulseMode mode);
+const char* toString(Lanes lanes);
+
+}  // namespace whittle

@@ -1,0 +1,167 @@
+// The render loop. Each method that launches is named after its kernel and its file in kernels/.
+#include "render/wavefront.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <utility>
+
+namespace whittle {
+
+Wavefront::Wavefront(Compute& compute, StageRunner& stages, RayQueues& queues, const WavefrontSetup& setup,
+                     const Buffer& pixelOrder, const Buffer& film, const Buffer& aovs)
+    : compute_(compute), stages_(stages), queues_(queues), setup_(setup), pixelOrder_(pixelOrder), film_(film), aovs_(aovs) {
+  counters_ = compute_.allocate("counters", COUNTERS * sizeof(std::uint32_t));
+  compute_.fillZero(counters_);
+}
+
+void Wavefront::trace(std::uint32_t firstSample, std::uint32_t samples, const std::function<void(std::uint64_t)>& progress) {
+  const std::uint32_t pixels = setup_.camera.width * setup_.camera.height;
+  const std::uint32_t room = queues_.segmentLimit();
+  const std::uint32_t samplesAtOnce = std::min(samples, room);
+  const std::uint32_t pixelsAtOnce = std::max(1U, room / samplesAtOnce);
+  std::uint64_t done = 0;
+  for (std::uint32_t pixel = 0; pixel < pixels; pixel += pixelsAtOnce) {
+    for (std::uint32_t sample = 0; sample < samples; sample += samplesAtOnce) {
+      batch_ = {pixel, std::min(pixelsAtOnce, pixels - pixel), firstSample + sample, std::min(samplesAtOnce, samples - sample)};
+      traceBatch(batch_);
+      done += std::uint64_t{batch_.pixels} * batch_.samples;
+      if (progress) progress(done);
+    }
+  }
+}
+
+void Wavefront::traceBatch(const device::Batch& batch) {
+  const std::uint32_t count = batch.pixels * batch.samples;
+  Buffer queue = queues_.acquire();
+  raygen(queue, count);
+  traceQueue(std::move(queue), count, 1);
+  film();
+  stages_.collect();
+}
+
+void Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t bounce) {
+  const auto segments = queues_.cut(queue, count, hasLongRuns(queue, count, bounce));
+  for (const Segment& segment : segments) {
+    Buffer next;
+    const std::uint32_t nextCount = traceSegment(queue, segment, bounce, next);
+    // The queue of the last segment is free before the next bounce: two queues serve a path that is never cut.
+    if (segment.end == count) queues_.release(std::move(queue));
+    if (nextCount > 0)
+      traceQueue(std::move(next), nextCount, bounce + 1);
+    else if (next)
+      queues_.release(std::move(next));
+  }
+}
+
+std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std::uint32_t bounce, Buffer& next) {
+  intersect(queue, segment);
+  shade(queue, segment, bounce);
+  occlude(compactShadow(segment));
+  for (std::uint32_t light = 1; light < setup_.scene.lightCount; ++light) {
+    shadeLight(queue, segment, light);
+    occlude(compactShadow(segment));
+  }
+  accumulate(queue, segment);
+  return bounce < setup_.bounces ? compactImpulse(queue, segment, next) : 0;
+}
+
+void Wavefront::raygen(const Buffer& queue, std::uint32_t count) {
+  stages_.run("raygen", count, count, setup_.camera, batch_, count, queues_.capacity(), pixelOrder_, queue,
+              queues_.sampleRadiance);
+  tally_.primary += count;
+  tally_.produced += count;
+}
+
+void Wavefront::intersect(const Buffer& queue, Segment segment) {
+  stages_.run("intersect", searchItems(segment.count()), segment.count(), setup_.scene, segment.begin, segment.count(),
+              queues_.capacity(), queue, queues_.hits);
+}
+
+void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce) {
+  stages_.run("shade", segment.count(), segment.count(), setup_.scene, setup_.constants, batch_, segment.begin, segment.count(),
+              queues_.capacity(), bounce, setup_.bounces, setup_.camera.width, setup_.camera.width * setup_.camera.height,
+              pixelOrder_, queue, queues_.hits, queues_.entryRadiance, queues_.shadows, queues_.impulses, queues_.flags, aovs_);
+  tally_.finished += segment.count();
+}
+
+void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t light) {
+  stages_.run("shade_light", segment.count(), segment.count(), setup_.scene, setup_.constants, segment.begin, segment.count(),
+              queues_.capacity(), light, queue, queues_.hits, queues_.entryRadiance, queues_.shadows, queues_.flags);
+}
+
+std::uint32_t Wavefront::compactShadow(Segment segment) {
+  if (!queues_.shadows) return 0;
+  const std::uint32_t chunks = (segment.count() + setup_.compactChunk - 1) / setup_.compactChunk;
+  stages_.run("compact_count_shadow", chunks, segment.count(), segment.count(), queues_.flags, queues_.totals);
+  const std::uint32_t found = scanChunks(segment.count());
+  if (found > 0) {
+    stages_.run("compact_shadow", chunks, segment.count(), segment.count(), queues_.flags, queues_.totals, queues_.shadowQueue);
+    tally_.shadow += found;
+  }
+  return found;
+}
+
+void Wavefront::occlude(std::uint32_t count) {
+  if (count == 0) return;
+  stages_.run("occlude", searchItems(count), count, setup_.scene, count, queues_.capacity(), queues_.shadowQueue,
+              queues_.shadows, queues_.entryRadiance);
+}
+
+std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, Buffer& next) {
+  if (!queues_.impulses) return 0;
+  const std::uint32_t chunks = (segment.count() + setup_.compactChunk - 1) / setup_.compactChunk;
+  stages_.run("compact_count_impulse", chunks, segment.count(), segment.count(), queues_.flags, queues_.totals);
+  const std::uint32_t found = scanChunks(segment.count());
+  if (found == 0) return 0;
+  assert(found <= queues_.capacity());
+  next = queues_.acquire();
+  stages_.run("compact_impulse", chunks, segment.count(), segment.begin, segment.count(), queues_.capacity(), queues_.flags,
+              queues_.totals, queues_.impulses, queue, next);
+  tally_.impulse += found;
+  tally_.produced += found;
+  return found;
+}
+
+void Wavefront::accumulate(const Buffer& queue, Segment segment) {
+  stages_.run("accumulate", segment.count(), segment.count(), segment.begin, segment.count(), queues_.capacity(), queue,
+              queues_.entryRadiance, queues_.sampleRadiance);
+}
+
+void Wavefront::film() {
+  stages_.run("film", batch_.pixels, batch_.pixels, batch_, queues_.capacity(), setup_.camera.width,
+              setup_.camera.width * setup_.camera.height, pixelOrder_, queues_.sampleRadiance, film_, counters_);
+}
+
+std::uint32_t Wavefront::scanChunks(std::uint32_t count) {
+  const std::uint32_t chunks = (count + setup_.compactChunk - 1) / setup_.compactChunk;
+  stages_.run("scan_chunks", 1, chunks, chunks, queues_.totals, queues_.sum);
+  std::uint32_t sum = 0;
+  compute_.read(queues_.sum, 0, sizeof(sum), &sum);
+  return sum;
+}
+
+bool Wavefront::hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint32_t bounce) {
+  // A sample has at most 2^(bounce-1) entries in the queue of a bounce.
+  if (!setup_.features.has(Feature::BOTH_BRANCHES) || count <= LONG_RUN || bounce < 10) return false;
+  const std::uint32_t zero = 0;
+  const std::size_t offset = COUNTER_LONG_RUN * sizeof(std::uint32_t);
+  clTry("clearing a counter",
+        [&] { compute_.queue().enqueueWriteBuffer(counters_.handle, CL_TRUE, offset, sizeof(zero), &zero); });
+  stages_.run("find_long_runs", count, count, count, queues_.capacity(), queue, counters_);
+  std::uint32_t found = 0;
+  compute_.read(counters_, offset, sizeof(found), &found);
+  return found != 0;
+}
+
+std::uint32_t Wavefront::searchItems(std::uint32_t rays) const {
+  return setup_.features.has(Feature::PACKETS) ? (rays + 7) / 8 : rays;
+}
+
+std::uint32_t Wavefront::nonFinite() {
+  std::uint32_t count = 0;
+  compute_.read(counters_, COUNTER_NONFINITE * sizeof(std::uint32_t), sizeof(count), &count);
+  return count;
+}
+
+}  // namespace whittle

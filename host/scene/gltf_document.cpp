@@ -1,0 +1,304 @@
+// See gltf_document.h. Opens .gltf and .glb (glTF 2.0, 4.4) and reads buffers on first use.
+#include "scene/gltf_document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "scene/gltf_check.h"
+#include "scene/gltf_uri.h"
+#include "scene/input_error.h"
+
+namespace whittle::gltf {
+
+namespace {
+
+constexpr std::array<std::string_view, 9> kSupportedExtensions{
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_transmission",
+    "KHR_materials_unlit",     "KHR_materials_volume",   "KHR_mesh_quantization"};
+
+bool isSupported(std::string_view extensionName) {
+  return extensionName == "KHR_texture_transform" ||
+         std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), extensionName) !=
+             kSupportedExtensions.end();
+}
+
+/// One line of printable text: control characters and line ends become spaces.
+std::string oneLine(std::string_view text) {
+  std::string line(text);
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line;
+}
+
+std::string_view asText(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// The first `most` bytes of a regular file, or what is wrong with it.
+std::optional<std::string> readStart(const std::filesystem::path& path, std::uint64_t most, Bytes& bytes) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) return "does not exist";
+  if (std::filesystem::is_directory(status)) return "is a folder, not a file";
+  if (!std::filesystem::is_regular_file(status)) return "is not a regular file";
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  std::ifstream stream(path, std::ios::binary);
+  if (error || !stream) return "cannot be read";
+  bytes.resize(std::min<std::uintmax_t>(size, most));
+  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (stream.gcount() != static_cast<std::streamsize>(bytes.size())) return "cannot be read to its end";
+  return std::nullopt;
+}
+
+std::uint32_t littleEndian(std::span<const std::byte> bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(bytes[at + i]) << (8 * i);
+  return value;
+}
+
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
+constexpr std::uint32_t kBinaryChunk = 0x004E4942;
+
+/// Splits a .glb into its JSON text and, into `document`, its BIN chunk.
+std::string_view splitBinary(Document& document) {
+  const std::span<const std::byte> file(document.file);
+  if (file.size() < 20) document.fail("the .glb is truncated: it ends within its header");
+  const std::uint32_t version = littleEndian(file, 4);
+  if (version != 2) {
+    document.fail(
+        fmt::format("is .glb version {}; Whittle reads glTF 2.0 (convert the file first)", version));
+  }
+  const std::uint32_t length = littleEndian(file, 8);
+  if (length > file.size()) {
+    document.fail(fmt::format("the .glb is truncated: {} bytes of {}", file.size(), length));
+  }
+  std::string_view json;
+  bool hasJson = false;
+  // Chunk headers are eight bytes; a shorter rest is padding.
+  for (std::size_t at = 12; at + 8 <= length;) {
+    const std::size_t size = littleEndian(file, at);
+    const std::uint32_t type = littleEndian(file, at + 4);
+    if (size > length - at - 8) document.fail("the .glb is damaged: a chunk reaches beyond its end");
+    const auto chunk = file.subspan(at + 8, size);
+    if (!hasJson) {
+      if (type != kJsonChunk) document.fail("the .glb is damaged: its first chunk is not JSON");
+      json = asText(chunk);
+      hasJson = true;
+    } else if (type == kBinaryChunk && !document.hasBinary) {
+      document.binary = chunk;
+      document.hasBinary = true;
+    }
+    at += 8 + size;
+  }
+  if (!hasJson) document.fail("the .glb has no JSON chunk");
+  while (!json.empty() && (json.back() == '\0' || json.back() == ' ')) json.remove_suffix(1);
+  return json;
+}
+
+Json parseJson(const Document& document, std::string_view text) {
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) document.fail("is empty");
+  if (isLfsPointer(text)) document.fail("is a git-lfs pointer, not the file itself (run git lfs pull)");
+  if (nestsTooDeep(text)) document.fail("its JSON is nested deeper than any glTF file needs");
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& e) {
+    std::string_view what = e.what();  // "[json.exception.parse_error.101] parse error at line 1, …"
+    if (const auto end = what.find("] "); end != std::string_view::npos) what.remove_prefix(end + 2);
+    document.fail(fmt::format("not a glTF file: its JSON cannot be read ({})", what));
+  }
+}
+
+/// Before anything else is checked: in glTF 1.0 nearly every property has another type.
+void checkVersion(const Document& document, const Json& json) {
+  if (!json.is_object() || !json.contains("asset")) return;  // checkedCopy says it better
+  for (const char* array : {"scenes", "nodes", "meshes", "accessors"}) {
+    if (json.contains(array) && json[array].is_object()) {
+      document.fail("is glTF 1.0; Whittle reads glTF 2.0 (convert the file first)");
+    }
+  }
+  for (const char* key : {"minVersion", "version"}) {
+    const auto found = json["asset"].is_object() ? json["asset"].find(key) : json["asset"].end();
+    if (found == json["asset"].end() || !found->is_string()) continue;
+    const auto version = found->get<std::string>();
+    const bool isTwo = version == "2" || version.starts_with("2.");
+    const bool tooNew = std::string_view(key) == "minVersion" && isTwo && version != "2.0" && version != "2";
+    if (!isTwo || tooNew) {
+      document.fail(fmt::format("asset.{} is{}; Whittle reads glTF 2.0 (convert the file first)", key,
+                                quotedName(version)));
+    }
+  }
+}
+
+std::string listOf(const Json& names, bool (*wanted)(std::string_view)) {
+  std::string list;
+  for (const Json& name : names) {
+    const auto text = name.get<std::string>();
+    if (!wanted(text)) continue;
+    if (!list.empty()) list += ", ";
+    list += text.substr(0, 60);
+    if (list.size() > 200) return list + ", …";
+  }
+  return list;
+}
+
+void checkExtensions(const Document& document, Notices& notices) {
+  const auto unsupported = [](std::string_view extensionName) { return !isSupported(extensionName); };
+  const std::string required = listOf(child(document.json, "extensionsRequired"), unsupported);
+  if (!required.empty()) {
+    document.fail(
+        fmt::format("needs {}, which Whittle does not read (extensionsRequired)", oneLine(required)));
+  }
+  const std::string used = listOf(child(document.json, "extensionsUsed"), unsupported);
+  if (!used.empty()) notices.note(fmt::format("extensions not read: {}", oneLine(used)));
+}
+
+/// tinygltf refuses index accessors without a buffer view, which are legal (zeros, or sparse values over
+/// zeros): while it reads, such accessors have a view of their own, behind all the others.
+std::string withStandInView(Json description) {
+  const std::size_t standIn = child(description, "bufferViews").size();
+  for (Json& accessor : description["accessors"]) {
+    if (!accessor.contains("bufferView")) accessor["bufferView"] = standIn;
+  }
+  description["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
+  return description.dump();
+}
+
+void removeStandInView(tinygltf::Model& model) {
+  model.bufferViews.pop_back();
+  const auto standIn = static_cast<int>(model.bufferViews.size());
+  for (tinygltf::Accessor& accessor : model.accessors) {
+    if (accessor.bufferView == standIn) accessor.bufferView = -1;
+  }
+}
+
+void readDescription(Document& document) {
+  const std::string text = withStandInView(descriptionOnly(document.json));
+  if (text.size() > std::numeric_limits<unsigned int>::max()) document.fail("its JSON is larger than 4 GB");
+  tinygltf::TinyGLTF reader;
+  std::string error;
+  std::string warning;
+  if (!reader.LoadASCIIFromString(&document.model, &error, &warning, text.c_str(),
+                                  static_cast<unsigned int>(text.size()), "", tinygltf::NO_REQUIRE)) {
+    document.fail(error.empty() ? "cannot be read" : error);
+  }
+  removeStandInView(document.model);
+}
+
+void readFromUri(Document& document, int buffer, const std::string& uri, std::uint64_t length, Bytes& bytes) {
+  if (isDataUri(uri)) {
+    auto decoded = decodeDataUri(uri);
+    if (!decoded) document.fail(fmt::format("the data URI of buffer {} cannot be decoded", buffer));
+    bytes = std::move(*decoded);
+    return;
+  }
+  if (isAbsoluteUri(uri)) {
+    document.fail(fmt::format("buffer {} is at{}; Whittle reads local files only", buffer, quotedName(uri)));
+  }
+  constexpr std::uint64_t kPointerStart = 64;  // enough to tell a git-lfs pointer by
+  const auto problem = readStart(resolveUri(document.folder, uri), std::max(length, kPointerStart), bytes);
+  if (problem) document.fail(fmt::format("buffer {}: the file{} {}", buffer, quotedName(uri), *problem));
+  if (isLfsPointer(asText(bytes))) {
+    document.fail(fmt::format("buffer {}: the file{} is a git-lfs pointer, not the data (run git lfs pull)",
+                              buffer, quotedName(uri)));
+  }
+}
+
+}  // namespace
+
+void Document::fail(std::string_view what) const {
+  constexpr std::size_t kLongest = 390;  // bytes, so that a line stays a line on any terminal
+  std::string line = fmt::format("{}: {}", oneLine(name), oneLine(what));
+  if (line.size() > kLongest) {
+    std::size_t end = std::max(kLongest - 3, std::min(oneLine(name).size(), line.size()));
+    while (end > 0 && end < line.size() && (static_cast<unsigned char>(line[end]) & 0xC0U) == 0x80U) --end;
+    line = line.substr(0, end) + "…";
+  }
+  throw InputError(line);
+}
+
+void openDocument(Document& document, const std::filesystem::path& path, Notices& notices) {
+  document.name = path.string();
+  document.folder = path.parent_path();
+  const auto problem = readStart(path, std::numeric_limits<std::uint64_t>::max(), document.file);
+  if (problem) document.fail(*problem);
+  if (document.file.empty()) document.fail("is empty");
+  const bool isBinary = asText(document.file).starts_with("glTF");
+  const Json json = parseJson(document, isBinary ? splitBinary(document) : asText(document.file));
+  checkVersion(document, json);
+  document.json = checkedCopy(document, json);
+  checkExtensions(document, notices);
+  const auto animations = json.find("animations");
+  if (animations != json.end() && animations->is_array() && !animations->empty()) {
+    notices.note("animations are not played: the rest pose is shown");
+  }
+  readDescription(document);
+  document.bufferBytes.resize(child(document.json, "buffers").size());
+  document.bufferRead.resize(document.bufferBytes.size());
+}
+
+std::span<const std::byte> bufferData(Document& document, int buffer) {
+  const auto i = static_cast<std::size_t>(buffer);
+  const Json& description = document.json["buffers"][i];
+  const auto length = description["byteLength"].get<std::uint64_t>();
+  std::span<const std::byte> data;
+  if (!description.contains("uri")) {
+    if (buffer != 0 || !document.hasBinary) document.fail(fmt::format("buffer {} has no data", buffer));
+    data = document.binary;
+  } else {
+    if (!document.bufferRead[i]) {
+      readFromUri(document, buffer, description["uri"].get_ref<const std::string&>(), length,
+                  document.bufferBytes[i]);
+      document.bufferRead[i] = true;
+    }
+    data = document.bufferBytes[i];
+  }
+  if (data.size() < length) {
+    document.fail(fmt::format("buffer {} is too short: {} bytes of {}", buffer, data.size(), length));
+  }
+  return data.first(static_cast<std::size_t>(length));
+}
+
+std::span<const std::byte> viewData(Document& document, int view) {
+  const tinygltf::BufferView& v = document.model.bufferViews[static_cast<std::size_t>(view)];
+  const auto data = bufferData(document, v.buffer);
+  if (v.byteOffset > data.size() || v.byteLength > data.size() - v.byteOffset) {
+    document.fail(fmt::format("bufferViews[{}] reaches beyond buffer {}", view, v.buffer));
+  }
+  return data.subspan(v.byteOffset, v.byteLength);
+}
+
+const Json& child(const Json& object, const char* key) {
+  static const Json kNothing = Json::object();
+  const auto found = object.find(key);
+  return found == object.end() ? kNothing : *found;
+}
+
+const Json* extension(const Json& object, const char* name) {
+  const Json& extensions = child(object, "extensions");
+  const auto found = extensions.find(name);
+  return found == extensions.end() ? nullptr : &*found;
+}
+
+double number(const Json& object, const char* key, double fallback) {
+  const auto found = object.find(key);
+  return found == object.end() ? fallback : found->get<double>();
+}
+
+std::string quotedName(std::string_view name) {
+  if (name.empty()) return {};
+  constexpr std::size_t kLongest = 80;
+  std::size_t end = std::min(name.size(), kLongest);
+  while (end < name.size() && end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
+  return fmt::format(" \"{}{}\"", oneLine(name.substr(0, end)), end < name.size() ? "…" : "");
+}
+
+}  // namespace whittle::gltf

@@ -1,0 +1,62 @@
+// A glTF 2.0 file opened and checked: the description (JSON), tinygltf's typed view of it, and the buffers,
+// which are read on first use. Nothing of it leaves the gltf_*.cpp files. Follows the glTF 2.0 specification,
+// sections 3 and 4.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/notices.h"
+
+namespace whittle::gltf {
+
+using Json = nlohmann::json;
+using Bytes = std::vector<std::byte>;
+
+/// What every part of the loader reads. Indices stored in `json` and `model` are in range, see gltf_check.h.
+struct Document {
+  Document() = default;
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+
+  std::string name;                   ///< the path as the user gave it: every error starts with it
+  std::filesystem::path folder;       ///< relative URIs start here
+  Bytes file;                         ///< the whole file; of a .glb, `binary` points into it
+  std::span<const std::byte> binary;  ///< BIN chunk of a .glb
+  bool hasBinary = false;
+  Json json;              ///< checked copy: extensions, extras, buffers and images are read from here
+  tinygltf::Model model;  ///< everything else
+  std::vector<Bytes> bufferBytes;  ///< filled by bufferData
+  std::vector<bool> bufferRead;
+
+  /// Throws InputError with one line, "NAME: what".
+  [[noreturn]] void fail(std::string_view what) const;
+};
+
+/// Reads, splits, parses and checks `path`. Throws InputError; notes what is not supported and not required.
+void openDocument(Document& document, const std::filesystem::path& path, Notices& notices);
+
+/// The bytes of a buffer, at least its byteLength of them. Throws InputError.
+std::span<const std::byte> bufferData(Document& document, int buffer);
+
+/// The bytes of a buffer view, checked against its buffer. Throws InputError.
+std::span<const std::byte> viewData(Document& document, int view);
+
+/// The object under `key`, or an empty object where there is none.
+const Json& child(const Json& object, const char* key);
+/// The extension `name` of a glTF object; null where it is absent.
+const Json* extension(const Json& object, const char* name);
+/// A number, or `fallback` where it is absent.
+double number(const Json& object, const char* key, double fallback);
+
+/// ` "name"` for messages, shortened, control characters replaced; nothing for an empty name.
+std::string quotedName(std::string_view name);
+
+}  // namespace whittle::gltf

@@ -1,0 +1,25 @@
+// glTF 2.0 and GLB files to Scene. The only user of tinygltf.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "scene/notices.h"
+#include "scene/scene.h"
+
+namespace whittle {
+
+struct LoadOptions {
+  std::optional<std::string> sceneName;  ///< name or index; default: the file's default scene, else the first
+};
+
+/// Reads `path`. Throws InputError with one line if it cannot be used; says in `notices` what was ignored or
+/// chosen. Adds a camera, lights and a background where the file has none (see addDefaults).
+Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices);
+
+/// A camera that frames the scene where it has none; a sun with shadows plus a fill light without, and a dim
+/// constant background, where it has neither lights nor emitters nor a background. Both are noted.
+void addDefaults(Scene& scene, Notices& notices);
+
+}  // namespace whittle

@@ -1,0 +1,135 @@
+// The scene as plain data: what the loader fills, the analysis reads, the device and the reference trace.
+// World space throughout: metres, right-handed, +Y up, as in glTF 2.0. Instances are baked into world-space triangles.
+// It knows neither glTF nor OpenCL nor image files.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace whittle {
+
+/// An 8-bit image, row 0 at the top (glTF's v = 0). `texels` holds width·height·4 bytes RGBA, not premultiplied.
+/// Whether the colour channels are sRGB-encoded is decided by the slot that uses it, not by the image.
+struct Image {
+  std::string name;
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> texels;
+};
+
+enum class Wrap : std::uint8_t { Repeat, Clamp, Mirror };
+enum class Filter : std::uint8_t { Nearest, Linear };
+
+/// A texture slot of a material. The coordinate used is uv' = transform · (u, v, 1) of set `uvSet`.
+struct TextureSlot {
+  int image = -1;  ///< index into Scene::images; -1: the slot is empty and the factor stands alone
+  int uvSet = 0;   ///< 0 or 1
+  Wrap wrapS = Wrap::Repeat;
+  Wrap wrapT = Wrap::Repeat;
+  Filter filter = Filter::Linear;
+  /// Two rows of three: u' = t[0]·u + t[1]·v + t[2], v' = t[3]·u + t[4]·v + t[5] (KHR_texture_transform).
+  std::array<float, 6> transform{1, 0, 0, 0, 1, 0};
+
+  bool used() const { return image >= 0; }
+};
+
+enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
+
+/// glTF 2.0 metallic-roughness material with the extensions Whittle reads. All colours linear.
+struct Material {
+  std::string name;
+  glm::vec4 baseColor{1.0F};  ///< rgb reflectance / tint, a coverage; texture is sRGB, multiplied
+  TextureSlot baseColorTexture;
+  float metallic = 1.0F;   ///< texture: blue channel
+  float roughness = 1.0F;  ///< perceptual; microfacet alpha = roughness²; texture: green channel
+  TextureSlot metallicRoughnessTexture;
+  float normalScale = 1.0F;
+  TextureSlot normalTexture;
+  float occlusionStrength = 1.0F;  ///< read and kept, not used: occlusion dims ambient light, and Whitted has none
+  TextureSlot occlusionTexture;
+  glm::vec3 emission{0.0F};  ///< W/(m² sr): emissiveFactor · emissiveStrength; texture is sRGB, multiplied
+  TextureSlot emissionTexture;
+  float ior = 1.5F;  ///< ratio of the indices inside over outside, across this interface; 0 means "Fresnel = 1"
+  float specular = 1.0F;  ///< KHR_materials_specular; texture: alpha channel
+  TextureSlot specularTexture;
+  glm::vec3 specularColor{1.0F};  ///< texture is sRGB
+  TextureSlot specularColorTexture;
+  float transmission = 0.0F;  ///< texture: red channel
+  TextureSlot transmissionTexture;
+  bool volume = false;  ///< KHR_materials_volume with thickness > 0: the surface bounds a solid, rays refract
+  /// Absorption coefficient in 1/m, -ln(attenuationColor)/attenuationDistance; 0 where nothing is absorbed.
+  /// An attenuation colour of 0 gives infinity, which is legal: e^(-inf·d) = 0, and 1 for d = 0.
+  glm::vec3 sigma_a{0.0F};
+  bool unlit = false;
+  AlphaMode alphaMode = AlphaMode::Opaque;
+  float alphaCutoff = 0.5F;
+  bool doubleSided = false;
+};
+
+/// Corners by index into Scene's vertex arrays, counter-clockwise seen from the front (already flipped for
+/// mirrored nodes).
+struct Triangle {
+  std::uint32_t v0 = 0, v1 = 0, v2 = 0;
+  std::uint32_t material = 0;  ///< index into Scene::materials, always valid
+};
+
+enum class LightKind : std::uint8_t { Point, Directional, Spot };
+
+/// KHR_lights_punctual. `intensity` is colour · intensity: W/sr for point and spot, W/m² for directional
+/// (or the photometric cd and lux: the picture then is in nits).
+struct Light {
+  std::string name;
+  LightKind kind = LightKind::Point;
+  glm::vec3 intensity{1.0F};
+  glm::vec3 position{0.0F};           ///< world
+  glm::vec3 direction{0, 0, -1};      ///< world, unit: the way the light shines
+  float range = std::numeric_limits<float>::infinity();  ///< metres
+  float innerConeAngle = 0.0F;        ///< radians, half angle; full intensity inside
+  float outerConeAngle = 0.785398163F;  ///< radians, half angle; dark outside
+  bool castsShadows = true;
+};
+
+/// Looks along -Z of its node, +Y up. All three axes are world-space unit vectors.
+struct Camera {
+  std::string name;
+  bool orthographic = false;
+  glm::vec3 position{0.0F};
+  glm::vec3 right{1, 0, 0};
+  glm::vec3 up{0, 1, 0};
+  glm::vec3 forward{0, 0, -1};
+  float yfov = 0.9F;  ///< perspective: full vertical field of view in radians
+  float ymag = 1.0F;  ///< orthographic: half the visible height in metres
+};
+
+/// Radiance seen by rays that leave the scene, W/(m² sr).
+struct Background {
+  glm::vec3 radiance{0.0F};  ///< constant; multiplies the map where there is one
+  int width = 0, height = 0;
+  /// Equirectangular map, linear RGB floats, width·height·3, row 0 at the top (+Y); empty: constant only.
+  /// Direction to (u, v): u = 0.5 + atan2(d.x, -d.z)/(2π), v = acos(d.y)/π. Bilinear, u wraps, v clamps.
+  std::vector<float> map;
+};
+
+/// Per-vertex arrays are either empty (no triangle of the scene needs them) or as long as `positions`.
+struct Scene {
+  std::string file;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;   ///< unit; (0,0,0): this vertex has none, use the geometric normal
+  std::vector<glm::vec4> tangents;  ///< xyz unit, w = ±1; kept only when a material has a normal map
+  std::vector<glm::vec2> uv0;       ///< kept only when a texture uses it
+  std::vector<glm::vec2> uv1;
+  std::vector<glm::vec4> colors;  ///< linear RGBA, multiplies baseColor; (1,1,1,1) where a mesh has none
+  std::vector<Triangle> triangles;
+  std::vector<Material> materials;
+  std::vector<Image> images;
+  std::vector<Light> lights;
+  std::vector<Camera> cameras;  ///< never empty after loading
+  Background background;
+  std::uint64_t droppedTriangles = 0;  ///< not finite, or |coordinate| > 1.8e18, or a repeated position
+};
+
+}  // namespace whittle

@@ -1,0 +1,106 @@
+// Writes a temporary file beside the target and renames it: rename() within a folder is atomic (POSIX.1).
+// The data reach the disk (fsync) before the name does, so that a crash leaves the old file or the new one.
+#include "scene/whole_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "scene/input_error.h"
+
+namespace whittle {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, int error) {
+  throw std::runtime_error(
+      fmt::format("{}: cannot be written: {}", path.string(), std::generic_category().message(error)));
+}
+
+fs::path folderOf(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// Where the bytes really go: a link keeps pointing at its file, whose folder then holds the temporary one.
+fs::path followLink(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path target = fs::weakly_canonical(path, error);
+  return error ? path : target;
+}
+
+/// A file of its own that goes away again unless it was renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& target) : target_(target) {
+    // The name does not contain the target's: that one may already be as long as the file system allows.
+    for (int attempt = 0;; ++attempt) {
+      name_ = folderOf(target) / fmt::format(".whittle-{}-{}.part", ::getpid(), attempt);
+      file_ = ::open(name_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+      if (file_ >= 0) return;
+      if (errno != EEXIST) fail(target, errno);
+    }
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (file_ >= 0) ::close(file_);
+    if (!renamed_) ::unlink(name_.c_str());
+  }
+
+  void write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(target_, errno);
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+  }
+
+  void becomeTarget() {
+    // EINVAL, ENOTSUP: a file system that cannot flush is no reason to lose the picture.
+    if (::fsync(file_) != 0 && errno != EINVAL && errno != ENOTSUP) fail(target_, errno);
+    const int closed = ::close(file_);
+    file_ = -1;
+    if (closed != 0) fail(target_, errno);
+    if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, errno);
+    renamed_ = true;
+  }
+
+ private:
+  fs::path target_;
+  fs::path name_;
+  int file_ = -1;
+  bool renamed_ = false;
+};
+
+}  // namespace
+
+void writeWholeFile(const fs::path& path, std::span<const std::byte> bytes) {
+  TemporaryFile file(followLink(path));
+  file.write(bytes);
+  file.becomeTarget();
+}
+
+void checkFolderWritable(const fs::path& path) {
+  std::error_code error;
+  const fs::path target = followLink(path);
+  const fs::path folder = folderOf(target);
+  if (fs::is_directory(target, error))
+    throw InputError(fmt::format("{}: is a folder, not a file", path.string()));
+  if (!fs::is_directory(folder, error)) {
+    throw InputError(fmt::format("{}: the folder {} does not exist", path.string(), folder.string()));
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw InputError(fmt::format("{}: the folder {} is not writable: {}", path.string(), folder.string(),
+                                 std::generic_category().message(errno)));
+  }
+}
+
+}  // namespace whittle

@@ -1,0 +1,16 @@
+// accumulate: throughput · radiance of a segment's entries into the radiance of their samples. The entries of one
+// sample are neighbours; the work item at the first of them adds them all in queue order, so no order is left to chance.
+#include "lib/math.cl"
+
+__kernel void accumulate(const uint first, const uint count, const uint capacity, __global const float* rays,
+                         __global const float* entryRadiance, __global float* sampleRadiance) {
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  __global const float* slots = rays + (size_t)RAY_SLOT * capacity + first;
+  const uint slot = as_uint(slots[i]);
+  if (i > 0 && as_uint(slots[i - 1]) == slot) return;
+  float3 sum = loadPlanes3(sampleRadiance, capacity, 0, slot);
+  for (uint k = i; k < count && as_uint(slots[k]) == slot; ++k)
+    sum += loadPlanes3(rays, capacity, RAY_THROUGHPUT, first + k) * loadPlanes3(entryRadiance, capacity, 0, k);
+  storePlanes3(sampleRadiance, capacity, 0, slot, sum);
+}

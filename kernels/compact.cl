@@ -1,0 +1,77 @@
+// compact: dense queues from sparse candidates, order kept (reduce, then scan, then scatter: Blelloch 1990), without
+// barriers: a work item walks COMPACT_CHUNK entries serially, which a CPU likes best and a GPU can afford with a small COMPACT_CHUNK.
+// compact_count_*: entries wanted in each chunk. scan_chunks: exclusive sums of chunk totals. compact_shadow writes the
+// shadow queue (indices of candidates), compact_impulse the next ray queue.
+#include "lib/math.cl"
+
+__kernel void compact_count_shadow(const uint count, __global const uint* flags, __global uint* totals) {
+  const uint chunk = get_global_id(0);
+  const uint begin = chunk * COMPACT_CHUNK;
+  if (begin >= count) return;
+  const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
+  uint sum = 0;
+  for (uint i = begin; i < end; ++i) sum += flags[i] & ENTRY_SHADOW;
+  totals[chunk] = sum;
+}
+
+__kernel void compact_count_impulse(const uint count, __global const uint* flags, __global uint* totals) {
+  const uint chunk = get_global_id(0);
+  const uint begin = chunk * COMPACT_CHUNK;
+  if (begin >= count) return;
+  const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
+  uint sum = 0;
+  for (uint i = begin; i < end; ++i) sum += ((flags[i] >> 1) & 1u) + ((flags[i] >> 2) & 1u);
+  totals[chunk] = sum;
+}
+
+/// One work item: totals[i] becomes the sum of those before it; *sum the sum of all.
+__kernel void scan_chunks(const uint chunks, __global uint* totals, __global uint* sum) {
+  if (get_global_id(0) != 0) return;
+  uint running = 0;
+  for (uint i = 0; i < chunks; ++i) {
+    const uint own = totals[i];
+    totals[i] = running;
+    running += own;
+  }
+  *sum = running;
+}
+
+__kernel void compact_shadow(const uint count, __global const uint* flags,
+                             __global const uint* offsets,   // [chunks] exclusive sums
+                             __global uint* shadowQueue) {   // [capacity]
+  const uint chunk = get_global_id(0);
+  const uint begin = chunk * COMPACT_CHUNK;
+  if (begin >= count) return;
+  const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
+  uint out = offsets[chunk];
+  for (uint i = begin; i < end; ++i)
+    if (flags[i] & ENTRY_SHADOW) shadowQueue[out++] = i;
+}
+
+__kernel void compact_impulse(const uint first, const uint count, const uint capacity, __global const uint* flags,
+                              __global const uint* offsets, __global const float* impulses,
+                              __global const float* rays,  // the queue the impulses came from: slots
+                              __global float* next) {      // [RAY_PLANES][capacity]
+  const uint chunk = get_global_id(0);
+  const uint begin = chunk * COMPACT_CHUNK;
+  if (begin >= count) return;
+  const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
+  uint out = offsets[chunk];
+  for (uint i = begin; i < end; ++i) {
+    for (uint k = 0; k < 2; ++k) {
+      if (!(flags[i] & (ENTRY_IMPULSE0 << k))) continue;
+      for (uint plane = 0; plane < IMPULSE_PLANES; ++plane)
+        next[(size_t)plane * capacity + out] = impulses[(size_t)(k * IMPULSE_PLANES + plane) * capacity + i];
+      next[(size_t)RAY_SLOT * capacity + out] = rays[(size_t)RAY_SLOT * capacity + first + i];
+      ++out;
+    }
+  }
+}
+
+/// Raises the counter if a sample has more than LONG_RUN entries in a queue.
+__kernel void find_long_runs(const uint count, const uint capacity, __global const float* rays, __global uint* counters) {
+  const uint i = get_global_id(0);
+  if (i + LONG_RUN >= count) return;
+  __global const float* slots = rays + (size_t)RAY_SLOT * capacity;
+  if (as_uint(slots[i]) == as_uint(slots[i + LONG_RUN])) counters[COUNTER_LONG_RUN] = 1;
+}

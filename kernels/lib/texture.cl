@@ -1,0 +1,82 @@
+// Texture lookups: level 0, bilinear or nearest, wrap modes, sRGB decoded for each texel before filtering.
+#include "lib/scene.cl"
+
+/// Reduces a coordinate to [0, 1] by its wrap mode.
+float wrapCoordinate(float u, uint mode) {
+  if (mode == WRAP_REPEAT) return u - floor(u);
+  if (mode == WRAP_CLAMP) return u > 0.0f ? (u < 1.0f ? u : 1.0f) : 0.0f;
+  const float m = u - 2.0f * floor(u * 0.5f);
+  return m > 1.0f ? 2.0f - m : m;
+}
+
+/// Texel index after wrapping; one step outside is all that filtering asks for. Clamped, so that no load is outside.
+int wrapTexel(int i, int size, uint mode) {
+  if (i < 0) i = mode == WRAP_REPEAT ? size - 1 : 0;
+  if (i >= size) i = mode == WRAP_REPEAT ? i - size : size - 1;
+  return i < 0 ? 0 : (i >= size ? size - 1 : i);
+}
+
+float4 fetchTexel(const SceneView* scene, __global const DeviceTexture* texture, int x, int y, int srgb) {
+  const uint word = scene->texels[texture->firstTexel + (uint)y * (uint)texture->width + (uint)x];
+  const uint4 c = (uint4)(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u, word >> 24);
+  const float a = (float)c.w / 255.0f;
+  if (srgb)
+    return (float4)(scene->linearFromSrgb[c.x], scene->linearFromSrgb[c.y], scene->linearFromSrgb[c.z], a);
+  return (float4)((float)c.x / 255.0f, (float)c.y / 255.0f, (float)c.z / 255.0f, a);
+}
+
+/// RGBA of a texture slot at the transformed coordinate; colours are linear.
+float4 sampleTexture(const SceneView* scene, int slot, float2 uvFirst, float2 uvSecond, int srgb) {
+  __global const DeviceTexture* texture = scene->textures + slot;
+  const float2 uv = texture->uvSet == 0 ? uvFirst : uvSecond;
+  __global const float* m = texture->transform;
+  float u = m[0] * uv.x + m[1] * uv.y + m[2];
+  float v = m[3] * uv.x + m[4] * uv.y + m[5];
+  if (!isfinite(u) || !isfinite(v)) return fetchTexel(scene, texture, 0, 0, srgb);
+  u = wrapCoordinate(u, texture->wrapS) * (float)texture->width;
+  v = wrapCoordinate(v, texture->wrapT) * (float)texture->height;
+#if HAS(NEAREST_FILTER)
+  if (texture->nearest)
+    return fetchTexel(scene, texture, wrapTexel((int)floor(u), texture->width, texture->wrapS),
+                      wrapTexel((int)floor(v), texture->height, texture->wrapT), srgb);
+#endif
+  const float x = u - 0.5f, y = v - 0.5f;
+  const float fx = floor(x), fy = floor(y);
+  const float wx = x - fx, wy = y - fy;
+  const int x0 = wrapTexel((int)fx, texture->width, texture->wrapS);
+  const int x1 = wrapTexel((int)fx + 1, texture->width, texture->wrapS);
+  const int y0 = wrapTexel((int)fy, texture->height, texture->wrapT);
+  const int y1 = wrapTexel((int)fy + 1, texture->height, texture->wrapT);
+  const float4 top = fetchTexel(scene, texture, x0, y0, srgb) * (1.0f - wx) + fetchTexel(scene, texture, x1, y0, srgb) * wx;
+  const float4 low = fetchTexel(scene, texture, x0, y1, srgb) * (1.0f - wx) + fetchTexel(scene, texture, x1, y1, srgb) * wx;
+  return top * (1.0f - wy) + low * wy;
+}
+
+#if HAS(BACKGROUND_MAP)
+float3 backgroundTexel(const SceneView* scene, const RenderConstants* constants, int x, int y) {
+  const int w = constants->backgroundWidth, h = constants->backgroundHeight;
+  x = x < 0 ? x + w : (x >= w ? x - w : x);
+  x = x < 0 ? 0 : (x >= w ? w - 1 : x);
+  y = y < 0 ? 0 : (y >= h ? h - 1 : y);
+  return load3(scene->background + ((size_t)y * w + x) * 3);
+}
+#endif
+
+/// Radiance of a ray that leaves the scene along d.
+float3 backgroundRadiance(const SceneView* scene, const RenderConstants* constants, float3 d) {
+  const float3 uniformRadiance = (float3)(constants->background[0], constants->background[1], constants->background[2]);
+#if HAS(BACKGROUND_MAP)
+  if (constants->backgroundWidth > 0) {
+    const float cosine = d.y > -1.0f ? (d.y < 1.0f ? d.y : 1.0f) : -1.0f;
+    const float x = (0.5f + atan2(d.x, -d.z) * (0.5f / PI)) * (float)constants->backgroundWidth - 0.5f;
+    const float y = acos(cosine) * (1.0f / PI) * (float)constants->backgroundHeight - 0.5f;
+    const float fx = floor(x), fy = floor(y);
+    const float wx = x - fx, wy = y - fy;
+    const int ix = (int)fx, iy = (int)fy;
+    const float3 top = backgroundTexel(scene, constants, ix, iy) * (1.0f - wx) + backgroundTexel(scene, constants, ix + 1, iy) * wx;
+    const float3 low = backgroundTexel(scene, constants, ix, iy + 1) * (1.0f - wx) + backgroundTexel(scene, constants, ix + 1, iy + 1) * wx;
+    return uniformRadiance * (top * (1.0f - wy) + low * wy);
+  }
+#endif
+  return uniformRadiance;
+}

@@ -1,0 +1,148 @@
+// Searches for one ray: the nearest triangle, and what a shadow ray meets; through the tree or through every triangle.
+// Ties go to the lowest primitive index, so every search gives the same answer. Box test after Williams et al. 2005
+// with the far distance widened by 1 + 2 gamma(3) (Ize 2013), so that rounding cannot hide a triangle.
+#include "lib/surfel.cl"
+#include "lib/triangle.cl"
+
+#define FAR_WIDENING 1.00000036f
+
+typedef struct {
+  float t;
+  uint triangle;   // NO_HIT: nothing met
+  uint primitive;
+  float b1, b2;
+} Hit;
+
+/// Entry distance of child c, or +inf if it is missed or lies beyond tMax.
+float childEntry(const Ray* r, __global const Node* node, int c, float tMax) {
+  float entry = 0.0f, leave = tMax;
+  for (int a = 0; a < 3; ++a) {
+    const float lo = (node->lo[c][a] - r->o[a]) * r->inverse[a];
+    const float hi = (node->hi[c][a] - r->o[a]) * r->inverse[a];
+    const float near = r->inverse[a] >= 0.0f ? lo : hi;
+    const float far = (r->inverse[a] >= 0.0f ? hi : lo) * FAR_WIDENING;
+    entry = near > entry ? near : entry;
+    leave = far < leave ? far : leave;
+  }
+  return entry <= leave ? entry : INFINITY;
+}
+
+/// Keeps the candidate in `best` if it is nearer, or as near with a lower index.
+void testNearest(const SceneView* scene, const Ray* r, uint index, Hit* best) {
+  __global const DeviceTriangle* triangle = scene->triangles + index;
+  Candidate c;
+  if (!intersectTriangle(r, triangle, best->t, &c)) return;
+  if (c.t == best->t && triangle->primitive > best->primitive) return;
+#if HAS(ALPHA_MASK)
+  if ((triangle->flags & TRIANGLE_MASKED) && !passesAlphaMask(scene, index, c.b1, c.b2)) return;
+#endif
+  best->t = c.t;
+  best->b1 = c.b1;
+  best->b2 = c.b2;
+  best->triangle = index;
+  best->primitive = triangle->primitive;
+}
+
+/// Shadow ray: true once the light is blocked. `stops` collects -log2 of the transmittance in units of 2^-16.
+int testOcclusion(const SceneView* scene, const Ray* r, uint index, float tMax, uint* stops) {
+  __global const DeviceTriangle* triangle = scene->triangles + index;
+  Candidate c;
+  if (!intersectTriangle(r, triangle, tMax, &c) || !(c.t < tMax)) return 0;
+#if HAS(FILTERED_SHADOWS)
+  if (triangle->flags & TRIANGLE_FILTERS) {
+    const float3 through = shadowTransmittance(scene, index, c.b1, c.b2, (float3)(r->d[0], r->d[1], r->d[2]));
+    int blocked = 1;
+    for (int k = 0; k < 3; ++k) {
+      const float value = k == 0 ? through.x : (k == 1 ? through.y : through.z);
+      const float loss = value > 0.0f ? -log2(value) * 65536.0f : 2097152.0f;
+      stops[k] += loss > 0.0f ? (uint)(loss < 2097152.0f ? rint(loss) : 2097152.0f) : 0u;
+      if (stops[k] <= 1048576u) blocked = 0;
+      if (stops[k] > 2097152u) stops[k] = 2097152u;
+    }
+    return blocked;
+  }
+#endif
+#if HAS(ALPHA_MASK)
+  if ((triangle->flags & TRIANGLE_MASKED) && !passesAlphaMask(scene, index, c.b1, c.b2)) return 0;
+#endif
+  return 1;
+}
+
+/// Transmittance after a search that did not end blocked.
+float3 transmittanceFromStops(const uint* stops) {
+#if HAS(FILTERED_SHADOWS)
+  return (float3)(stops[0] > 1048576u ? 0.0f : exp2((float)stops[0] * -1.52587890625e-5f),
+                  stops[1] > 1048576u ? 0.0f : exp2((float)stops[1] * -1.52587890625e-5f),
+                  stops[2] > 1048576u ? 0.0f : exp2((float)stops[2] * -1.52587890625e-5f));
+#else
+  return (float3)(1.0f);
+#endif
+}
+
+#if HAS(TREE)
+Hit nearestSingle(const SceneView* scene, const Ray* r) {
+  Hit best = {MAXFLOAT, NO_HIT, NO_HIT, 0.0f, 0.0f};
+  int stack[MAX_TREE_DEPTH + 4];
+  int depth = 0;
+  int current = 0;
+  for (;;) {
+    if (current < 0) {
+      const uint packed = (uint)~current;
+      const uint first = packed >> 4, count = (packed & 15u) + 1;
+      for (uint i = first; i < first + count; ++i) testNearest(scene, r, i, &best);
+    } else {
+      __global const Node* node = scene->nodes + current;
+      const float t0 = childEntry(r, node, 0, best.t);
+      const float t1 = childEntry(r, node, 1, best.t);
+      if (t0 < INFINITY || t1 < INFINITY) {
+        const int second = t1 < t0;
+        current = node->child[second];
+        if (t0 < INFINITY && t1 < INFINITY) stack[depth++] = node->child[1 - second];
+        continue;
+      }
+    }
+    if (depth == 0) return best;
+    current = stack[--depth];
+  }
+}
+
+float3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
+  uint stops[3] = {0, 0, 0};
+  int stack[MAX_TREE_DEPTH + 4];
+  int depth = 0;
+  int current = 0;
+  for (;;) {
+    if (current < 0) {
+      const uint packed = (uint)~current;
+      const uint first = packed >> 4, count = (packed & 15u) + 1;
+      for (uint i = first; i < first + count; ++i)
+        if (testOcclusion(scene, r, i, tMax, stops)) return (float3)(0.0f);
+    } else {
+      __global const Node* node = scene->nodes + current;
+      const float t0 = childEntry(r, node, 0, tMax);
+      const float t1 = childEntry(r, node, 1, tMax);
+      if (t0 < INFINITY || t1 < INFINITY) {
+        const int second = t1 < t0;
+        current = node->child[second];
+        if (t0 < INFINITY && t1 < INFINITY) stack[depth++] = node->child[1 - second];
+        continue;
+      }
+    }
+    if (depth == 0) return transmittanceFromStops(stops);
+    current = stack[--depth];
+  }
+}
+#else
+Hit nearestSingle(const SceneView* scene, const Ray* r) {
+  Hit best = {MAXFLOAT, NO_HIT, NO_HIT, 0.0f, 0.0f};
+  for (uint i = 0; i < scene->triangleCount; ++i) testNearest(scene, r, i, &best);
+  return best;
+}
+
+float3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
+  uint stops[3] = {0, 0, 0};
+  for (uint i = 0; i < scene->triangleCount; ++i)
+    if (testOcclusion(scene, r, i, tMax, stops)) return (float3)(0.0f);
+  return transmittanceFromStops(stops);
+}
+#endif

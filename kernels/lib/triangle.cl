@@ -1,0 +1,62 @@
+// Watertight ray-triangle test, one ray (Woop, Benthin, Wald 2013). The edge functions carry the exact sign of the
+// projected areas (difference of products with two fma), so two triangles that share an edge cannot both reject.
+#include "lib/math.cl"
+
+/// A ray with the shear that turns its largest axis into +z: o + t d.
+typedef struct {
+  float o[3];
+  float d[3];
+  float inverse[3];  // 1/d with |d| kept above 1e-18, for boxes only
+  int kx, ky, kz;
+  float sx, sy, sz;
+} Ray;
+
+/// The candidate of one triangle test.
+typedef struct {
+  float t, b1, b2;
+} Candidate;
+
+float boxInverse(float d) {
+  const float magnitude = fabs(d) > 1e-18f ? fabs(d) : 1e-18f;
+  return 1.0f / copysign(magnitude, d);
+}
+
+Ray makeRay(float3 o, float3 d) {
+  Ray r;
+  r.o[0] = o.x, r.o[1] = o.y, r.o[2] = o.z;
+  r.d[0] = d.x, r.d[1] = d.y, r.d[2] = d.z;
+  for (int a = 0; a < 3; ++a) r.inverse[a] = boxInverse(r.d[a]);
+  const float ax = fabs(d.x), ay = fabs(d.y), az = fabs(d.z);
+  r.kz = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
+  r.kx = r.kz == 2 ? 0 : r.kz + 1;
+  r.ky = r.kx == 2 ? 0 : r.kx + 1;
+  r.sz = 1.0f / r.d[r.kz];
+  r.sx = r.d[r.kx] * r.sz;
+  r.sy = r.d[r.ky] * r.sz;
+  return r;
+}
+
+/// True if the ray meets the triangle at 0 < t <= tMax; `hit` then holds distance and barycentrics.
+int intersectTriangle(const Ray* r, __global const DeviceTriangle* triangle, float tMax, Candidate* hit) {
+  const float az = triangle->v[0][r->kz] - r->o[r->kz];
+  const float bz = triangle->v[1][r->kz] - r->o[r->kz];
+  const float cz = triangle->v[2][r->kz] - r->o[r->kz];
+  const float ax = fma(-r->sx, az, triangle->v[0][r->kx] - r->o[r->kx]);
+  const float ay = fma(-r->sy, az, triangle->v[0][r->ky] - r->o[r->ky]);
+  const float bx = fma(-r->sx, bz, triangle->v[1][r->kx] - r->o[r->kx]);
+  const float by = fma(-r->sy, bz, triangle->v[1][r->ky] - r->o[r->ky]);
+  const float cx = fma(-r->sx, cz, triangle->v[2][r->kx] - r->o[r->kx]);
+  const float cy = fma(-r->sy, cz, triangle->v[2][r->ky] - r->o[r->ky]);
+  const float u = differenceOfProducts(cx, by, cy, bx);
+  const float v = differenceOfProducts(ax, cy, ay, cx);
+  const float w = differenceOfProducts(bx, ay, by, ax);
+  const int inside = (u >= 0.0f && v >= 0.0f && w >= 0.0f) || (u <= 0.0f && v <= 0.0f && w <= 0.0f);
+  if (!inside) return 0;
+  const float det = u + v + w;
+  const float t = fma(u, az, fma(v, bz, w * cz)) * r->sz / det;
+  if (!(t > 0.0f && t <= tMax)) return 0;
+  hit->t = t;
+  hit->b1 = v / det;
+  hit->b2 = w / det;
+  return 1;
+}

@@ -1,0 +1,190 @@
+// Every struct and queue layout that host and device both read. Only 4-byte scalars and plain arrays of them, so that
+// alignment and padding cannot differ; sizes are asserted on the host and asked of the device by a test.
+#ifndef WHITTLE_LAYOUT_H
+#define WHITTLE_LAYOUT_H
+
+#ifndef __OPENCL_VERSION__
+#include <cstdint>
+namespace whittle::device {
+using uint = std::uint32_t;
+#define WHITTLE_STRUCT(Name) struct Name
+#else
+#define WHITTLE_STRUCT(Name) typedef struct Name Name; struct Name
+#endif
+
+// Two children, boxes kept in the parent: one 64-byte line decides both. Mirrors whittle::TreeNode.
+WHITTLE_STRUCT(Node) {
+  float lo[2][3];
+  float hi[2][3];
+  int child[2];  // >= 0: node; < 0: leaf, ~child = first << 4 | count - 1 into the triangles
+  int pad[2];
+};
+
+#define TRIANGLE_MASKED 1u     // alpha MASK: a hit must pass the alpha test
+#define TRIANGLE_FILTERS 2u    // lets some light through: shadow rays go on, dimmed
+
+// A triangle in leaf order, corners in world space.
+WHITTLE_STRUCT(DeviceTriangle) {
+  float v[3][3];
+  uint primitive;  // index in the scene, decides ties
+  uint flags;      // TRIANGLE_…
+  uint material;
+};
+
+#define MATERIAL_UNLIT 1u
+#define MATERIAL_VOLUME 2u
+#define MATERIAL_DOUBLE_SIDED 4u
+#define MATERIAL_MASK 8u
+#define MATERIAL_BLEND 16u
+
+WHITTLE_STRUCT(DeviceMaterial) {
+  float baseColor[4];
+  float emission[3];  // W/(m² sr)
+  float metallic;
+  float sigma_a[3];  // 1/m
+  float roughness;
+  float specularColor[3];
+  float specular;
+  float transmission;
+  float ior;
+  float alphaCutoff;
+  float normalScale;
+  uint flags;  // MATERIAL_…
+  // Indices into the texture slots, -1: none.
+  int baseColorTexture;
+  int metallicRoughnessTexture;
+  int normalTexture;
+  int emissionTexture;
+  int specularTexture;
+  int specularColorTexture;
+  int transmissionTexture;
+};
+
+#define WRAP_REPEAT 0u
+#define WRAP_CLAMP 1u
+#define WRAP_MIRROR 2u
+
+WHITTLE_STRUCT(DeviceTexture) {
+  float transform[6];  // u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5
+  uint firstTexel;     // RGBA8 words
+  int width;
+  int height;
+  uint wrapS;
+  uint wrapT;
+  uint nearest;  // 1: no filtering
+  uint uvSet;
+};
+
+#define LIGHT_POINT 0u
+#define LIGHT_DIRECTIONAL 1u
+#define LIGHT_SPOT 2u
+
+WHITTLE_STRUCT(DeviceLight) {
+  float intensity[3];  // W/sr, or W/m² (directional)
+  uint kind;
+  float position[3];
+  float range;         // metres, inf: none
+  float direction[3];  // the way it shines
+  uint castsShadows;
+  float versineOuter;  // 1 - cos of the half angles
+  float versineInner;
+  uint pad[2];
+};
+
+WHITTLE_STRUCT(DeviceCamera) {
+  float position[3];
+  float scaleX;  // perspective: aspect tan(yfov/2); orthographic: aspect ymag
+  float right[3];
+  float scaleY;
+  float up[3];
+  uint orthographic;
+  float forward[3];
+  uint seed;
+  uint width;  // pixels
+  uint height;
+  uint raysPerPixel;
+  uint sampler;  // 0 random, 1 stratified, 2 sobol
+};
+
+// Constants of a render that a kernel needs by value.
+WHITTLE_STRUCT(RenderConstants) {
+  float background[3];
+  float bump;  // metres; < 0: derived at each hit
+  int backgroundWidth;
+  int backgroundHeight;
+  float mirrorRoughness;
+  uint seed;
+};
+
+// The samples of one batch: pixels [firstPixel, firstPixel + pixels) of the pixel order, times samples
+// [firstSample, firstSample + samples). Slot = (pixel - firstPixel) · samples + (sample - firstSample).
+WHITTLE_STRUCT(Batch) {
+  uint firstPixel;
+  uint pixels;
+  uint firstSample;
+  uint samples;
+};
+
+// Queues are struct-of-arrays: plane p of entry i is queue[p * capacity + i]. Buffers are padded by QUEUE_PADDING
+// entries so that a packet may load past the end.
+#define QUEUE_PADDING 16
+
+// Ray queue: origin (m), direction (unit), throughput (RGB), slot of its sample (uint bits). Entries of one sample
+// are neighbours.
+#define RAY_O 0
+#define RAY_D 3
+#define RAY_THROUGHPUT 6
+#define RAY_SLOT 9
+#define RAY_PLANES 10
+
+// Hits: distance (m), triangle in leaf order (uint bits, NO_HIT), barycentrics b1, b2.
+#define HIT_T 0
+#define HIT_TRIANGLE 1
+#define HIT_B1 2
+#define HIT_B2 3
+#define HIT_PLANES 4
+#define NO_HIT 0xffffffffu
+
+// Shadow candidates, one for each ray entry and light round: bumped origin, direction, length, contribution.
+#define SHADOW_O 0
+#define SHADOW_D 3
+#define SHADOW_LENGTH 6
+#define SHADOW_CONTRIBUTION 7
+#define SHADOW_PLANES 10
+
+// Impulse candidates, two for each ray entry (plane + k * IMPULSE_PLANES): origin, direction, throughput.
+#define IMPULSE_O 0
+#define IMPULSE_D 3
+#define IMPULSE_THROUGHPUT 6
+#define IMPULSE_PLANES 9
+
+// What shade found at an entry.
+#define ENTRY_SHADOW 1u
+#define ENTRY_IMPULSE0 2u
+#define ENTRY_IMPULSE1 4u
+
+// Film planes for each pixel: compensated sums of RGB, and of luminance squared for the error estimate.
+#define FILM_SUM 0
+#define FILM_COMPENSATION 3
+#define FILM_SQUARES 6
+#define FILM_SQUARES_COMPENSATION 7
+#define FILM_PLANES 8
+
+// Auxiliary outputs of a pixel's first sample.
+#define AOV_DEPTH 0
+#define AOV_PRIMITIVE 1  // float of the index; -1 for none; exact below 2^24
+#define AOV_NORMAL 2
+#define AOV_ALBEDO 5
+#define AOV_PLANES 8
+
+// Counters on the device.
+#define COUNTER_NONFINITE 0
+#define COUNTER_LONG_RUN 1
+#define COUNTERS 2
+
+#ifndef __OPENCL_VERSION__
+}  // namespace whittle::device
+#endif
+#undef WHITTLE_STRUCT
+
+#endif

@@ -1,0 +1,51 @@
+// P3, spot cone: a stage. A soft-edged spot lights the pedestal; two hard-edged ones (inner = outer angle)
+// draw discs on the wall.
+#include "scenes.h"
+
+namespace generator {
+
+void buildSpotCone(GltfBuilder& scene) {
+  const int stage = scene.addMaterial(matte("stage", glm::dvec3(0.6)));
+  Mesh planes;
+  addQuad(planes, {-6, 0, 4}, {12, 0, 0}, {0, 0, -6});
+  addQuad(planes, {-6, 0, -2}, {12, 0, 0}, {0, 5, 0});
+  planes.uv0.clear();
+  planes.tangents.clear();
+  scene.add("stage", std::move(planes), stage);
+  const int sphere = scene.addGeometry(makeUnitSphere());
+  scene.place("ball", sphere, scene.addMaterial(matte("white", glm::dvec3(0.8))),
+              {.position = {0, 1.1, 0}, .scale = 0.5});
+  Mesh pedestal;
+  addBox(pedestal, {-0.35, 0, -0.35}, {0.35, 0.6, 0.35});
+  scene.add("pedestal", std::move(pedestal), scene.addMaterial(matte("stone", {0.45, 0.4, 0.35})));
+
+  const double degree = glm::radians(1.0);
+  scene.addLight({.name = "soft spot",
+                  .type = "spot",
+                  .color = {1, 0.95, 0.85},
+                  .intensity = 42,
+                  .position = {1.6, 4.6, 2.4},
+                  .target = {0, 0.5, 0},
+                  .innerCone = 8 * degree,
+                  .outerCone = 18 * degree});
+  scene.addLight({.name = "hard red spot",
+                  .type = "spot",
+                  .color = {1, 0.25, 0.2},
+                  .intensity = 30,
+                  .position = {-2.3, 2.2, 2.2},
+                  .target = {-2.5, 2.1, -2},
+                  .innerCone = 12 * degree,
+                  .outerCone = 12 * degree});
+  scene.addLight({.name = "hard blue spot",
+                  .type = "spot",
+                  .color = {0.25, 0.45, 1},
+                  .intensity = 30,
+                  .position = {2.3, 2.2, 2.2},
+                  .target = {2.5, 2.1, -2},
+                  .innerCone = 12 * degree,
+                  .outerCone = 12 * degree});
+  scene.addLight({.name = "fill", .intensity = 0.7, .position = {0, 3, 5}, .castsShadows = false});
+  scene.addCamera("camera", {0, 1.9, 6.2}, {0, 1.5, 0}, 40);
+}
+
+}  // namespace generator

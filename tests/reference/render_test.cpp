@@ -1,0 +1,252 @@
+// Whole pictures: cameras, counts of rays, threads, the choice of one impulse.
+#include "reference/reference.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "reference/camera.h"
+#include "reference/probe.h"
+#include "scene/input_error.h"
+
+namespace whittle::test {
+namespace {
+
+Settings small(int width, int height, int bounces) {
+  Settings settings;
+  settings.width = width;
+  settings.height = height;
+  settings.bounces = bounces;
+  return settings;
+}
+
+/// Looks straight down from y = 1, 2 m of height, −z at the top of the picture.
+Camera lookingDown(const std::string& name = "down") {
+  Camera camera;
+  camera.name = name;
+  camera.orthographic = true;
+  camera.position = {0, 1, 0};
+  camera.forward = {0, -1, 0};
+  camera.up = {0, 0, -1};
+  return camera;
+}
+
+TEST(Camera, PerspectiveRays) {
+  Camera camera;
+  camera.position = {1, 2, 3};
+  camera.yfov = static_cast<float>(std::numbers::pi / 2);  // tan(45°) = 1
+  const Ray centre = reference::eyeRay(camera, {200, 100}, 400, 200);
+  EXPECT_EQ(centre.origin, Vec3(1, 2, 3));
+  EXPECT_NEAR(glm::length(centre.direction - Vec3(0, 0, -1)), 0, 1e-15);
+  const Ray corner = reference::eyeRay(camera, {0, 0}, 400, 200);  // upper left
+  EXPECT_NEAR(glm::length(corner.direction - glm::normalize(Vec3(-2, 1, -1))), 0, 1e-7) << "π is rounded";
+}
+
+TEST(Camera, ExtremeFieldsOfViewAreFinite) {
+  Camera camera;
+  for (const double degrees : {1e-3, 179.9}) {
+    const double half = degrees / 2 * std::numbers::pi / 180;
+    camera.yfov = static_cast<float>(2 * half);
+    const Ray top = reference::eyeRay(camera, {50, 0}, 100, 100);
+    EXPECT_NEAR(glm::length(top.direction), 1, 1e-15);
+    EXPECT_NEAR(std::atan2(top.direction.y, -top.direction.z) / half, 1, 1e-7) << "the angle is a float";
+  }
+}
+
+TEST(Camera, OrthographicRays) {
+  Camera camera = lookingDown();
+  camera.ymag = 3;
+  const Ray corner = reference::eyeRay(camera, {40, 20}, 40, 20);  // lower right
+  EXPECT_NEAR(glm::length(corner.origin - Vec3(6, 1, 3)), 0, 1e-14);
+  EXPECT_EQ(corner.direction, Vec3(0, -1, 0));
+}
+
+TEST(Camera, IsFoundByNameOrIndex) {
+  Scene scene;
+  scene.file = "room.glb";
+  scene.cameras = {lookingDown("left"), lookingDown("right"), lookingDown("0")};
+  EXPECT_EQ(&reference::findCamera(scene, "right"), &scene.cameras[1]);
+  EXPECT_EQ(&reference::findCamera(scene, "1"), &scene.cameras[1]);
+  EXPECT_EQ(&reference::findCamera(scene, "0"), &scene.cameras[2]) << "a name goes before an index";
+  for (const std::string bad : {"top", "3", "-1", "1x", ""}) {
+    Settings settings = small(1, 1, 1);
+    settings.camera = bad;
+    try {
+      renderReference(scene, settings);
+      FAIL() << bad;
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      for (const char* part : {"room.glb", "0 \"left\"", "1 \"right\"", "2 \"0\""}) {
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+      }
+      EXPECT_EQ(text.find('\n'), std::string::npos);
+    }
+  }
+}
+
+/// A mirror on the ground under the camera, a white ceiling above it, two lights of which one casts shadows.
+Scene mirroredCeiling() {
+  Scene scene;
+  addFloor(scene, mirror(glm::vec3(0.5F)), 0);
+  addFloor(scene, lambert(glm::vec3(1)), 2, false);
+  scene.lights = {pointLight({0, 0.5F, 0}, 1), pointLight({0, 0.75F, 0}, 1)};
+  scene.lights[1].castsShadows = false;
+  scene.cameras = {lookingDown()};
+  return scene;
+}
+
+TEST(Counts, MirrorUnderACeiling) {
+  const Scene scene = mirroredCeiling();
+  const auto counts = [&](int bounces, bool shadows = true, int raysPerPixel = 1) {
+    Settings settings = small(4, 3, bounces);
+    settings.shadows = shadows;
+    settings.raysPerPixel = raysPerPixel;
+    const RayCounts rays = renderReference(scene, settings).rays;
+    EXPECT_EQ(rays.total(), rays.primary + rays.impulse + rays.shadow);
+    return std::array<std::uint64_t, 3>{rays.primary, rays.impulse, rays.shadow};
+  };
+  using Expected = std::array<std::uint64_t, 3>;
+  EXPECT_EQ(counts(1), (Expected{12, 0, 0})) << "a smooth metal has no direct light to shadow";
+  EXPECT_EQ(counts(2), (Expected{12, 12, 12})) << "the ceiling meets one light that casts shadows";
+  EXPECT_EQ(counts(8), (Expected{12, 12, 12})) << "the ceiling sends nothing on";
+  EXPECT_EQ(counts(8, false), (Expected{12, 12, 0}));
+  EXPECT_EQ(counts(8, true, 5), (Expected{60, 60, 60}));
+}
+
+TEST(Counts, SheetsOfGlassBranch) {
+  Scene scene;
+  addFloor(scene, glass(1.5F, false), 0.5F);
+  addFloor(scene, glass(1.5F, false), 0.25F);
+  scene.cameras = {lookingDown()};
+  // Rays on their way after bounce 1: one up (leaves), one down to the second sheet; from there again one
+  // leaves and one comes back up, and so on: two impulses for each hit, one hit for each bounce.
+  for (int bounces = 1; bounces <= 6; ++bounces) {
+    const RayCounts rays = renderReference(scene, small(2, 2, bounces)).rays;
+    EXPECT_EQ(rays.primary, 4U);
+    EXPECT_EQ(rays.impulse, 4U * 2 * (bounces - 1)) << bounces;
+    EXPECT_EQ(rays.shadow, 0U);
+  }
+}
+
+TEST(Picture, PrimitiveAndDepthBelongToTheFirstSample) {
+  Scene scene;
+  const std::uint32_t m = addMaterial(scene, lambert(glm::vec3(1)));
+  addQuad(scene, m, {-2, 0, -2}, {0, 0, 4}, {2, 0, 0});    // left half of the picture, y = 0
+  addQuad(scene, m, {0, 0.5F, -2}, {0, 0, 1}, {2, 0, 0});  // right half, y = 0.5, z below −1 …
+  scene.cameras = {lookingDown()};
+  Settings settings = small(4, 4, 1);
+  const ReferenceResult one = renderReference(scene, settings);
+  EXPECT_EQ(one.depth.pixels[0], 1);
+  EXPECT_TRUE(one.primitive.pixels[0] == 0 || one.primitive.pixels[0] == 1);
+  EXPECT_EQ(one.primitive.pixels[3], -1) << "… which the picture does not reach";
+  EXPECT_EQ(one.depth.pixels[3], std::numeric_limits<float>::infinity());
+  settings.raysPerPixel = 16;
+  const ReferenceResult many = renderReference(scene, settings);
+  for (int i = 0; i < 16; ++i) EXPECT_EQ(many.primitive.pixels[i] < 0, i % 4 >= 2);
+  EXPECT_EQ(many.primitive.channels, 1);
+  EXPECT_EQ(many.depth.width, 4);
+  EXPECT_EQ(many.radiance.pixels.size(), 4U * 4 * 3);
+}
+
+TEST(Picture, RowZeroIsAtTheTop) {
+  Scene scene;
+  addQuad(scene, addMaterial(scene, emitter({1, 0, 0})), {-2, 0, -2}, {0, 0, 2},
+          {4, 0, 0});  // z < 0: the top
+  scene.cameras = {lookingDown()};
+  const FloatImage picture = renderReference(scene, small(2, 2, 1)).radiance;
+  EXPECT_EQ(picture.pixels, (std::vector<float>{1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0}));
+}
+
+TEST(Picture, DoesNotDependOnTheNumberOfThreads) {
+  Scene scene = mirroredCeiling();
+  addFloor(scene, glass(1.5F, false), 0.25F, true, 0.5F);
+  Settings settings = small(24, 16, 5);
+  settings.raysPerPixel = 4;
+  settings.sampler = Sampler::Sobol;
+  settings.impulses = ImpulseMode::One;
+  settings.threads = 1;
+  const ReferenceResult one = renderReference(scene, settings);
+  for (const int threads : {0, 2, 7}) {
+    settings.threads = threads;
+    const ReferenceResult other = renderReference(scene, settings);
+    EXPECT_EQ(one.radiance.pixels, other.radiance.pixels) << threads;
+    EXPECT_EQ(one.rays.impulse, other.rays.impulse);
+    EXPECT_EQ(one.rays.shadow, other.rays.shadow);
+  }
+}
+
+TEST(Picture, SaysHowFarItIs) {
+  std::vector<int> done;
+  renderReference(mirroredCeiling(), small(2, 5, 1), [&](int rows, int of) {
+    EXPECT_EQ(of, 5);
+    done.push_back(rows);
+  });
+  EXPECT_EQ(done, (std::vector<int>{1, 2, 3, 4, 5}));
+}
+
+TEST(Picture, SamplesThatAreNotFiniteAreCountedAndLeftOut) {
+  Scene scene;
+  addQuad(scene, addMaterial(scene, emitter({1, 0, 0})), {-2, 0, -2}, {0, 0, 4}, {2, 0, 0});
+  addQuad(scene, addMaterial(scene, emitter(glm::vec3(std::nanf("")))), {0, 0, -2}, {0, 0, 4}, {2, 0, 0});
+  scene.cameras = {lookingDown()};
+  const ReferenceResult result = renderReference(scene, small(2, 1, 1));
+  EXPECT_EQ(result.nonFinite, 1U);
+  EXPECT_EQ(result.radiance.pixels, (std::vector<float>{1, 0, 0, 0, 0, 0}));
+}
+
+TEST(Picture, AnEmptySceneIsItsBackground) {
+  Scene scene;
+  scene.background.radiance = {0.25F, 0.5F, 1};
+  scene.cameras = {lookingDown()};
+  const ReferenceResult result = renderReference(scene, small(1, 1, 8));
+  EXPECT_EQ(result.radiance.pixels, (std::vector<float>{0.25F, 0.5F, 1}));
+  EXPECT_EQ(result.rays.total(), 1U);
+}
+
+TEST(OneImpulse, IsRightOnAverage) {
+  // A tinted slab of glass between a red and a green emitter, at an angle at which much is reflected.
+  Scene scene;
+  Material tinted = glass(1.5F, true);
+  tinted.baseColor = {0.9F, 0.5F, 0.7F, 1};
+  addFloor(scene, tinted, 0);
+  addFloor(scene, tinted, -1, false);
+  addFloor(scene, emitter({1, 0.25F, 0}), 3, false);
+  addFloor(scene, emitter({0.5F, 1, 2}), -3);
+  Camera camera;
+  camera.orthographic = true;
+  camera.ymag = 1e-3F;  // every sample sees the same
+  camera.position = {-4, 1, 0};
+  camera.forward = glm::vec3(glm::normalize(Vec3(4, -1, 0)));
+  camera.up = glm::vec3(glm::normalize(Vec3(1, 4, 0)));
+  camera.right = {0, 0, 1};
+  scene.cameras = {camera};
+  Settings settings = small(1, 1, 6);
+  const ReferenceResult all = renderReference(scene, settings);
+
+  settings.impulses = ImpulseMode::One;
+  constexpr int kSeeds = 400;
+  settings.raysPerPixel = 64;
+  Vec3 sum(0), squares(0);
+  std::uint64_t impulses = 0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    settings.seed = static_cast<std::uint32_t>(seed);
+    const ReferenceResult one = renderReference(scene, settings);
+    const Vec3 seen(one.radiance.pixels[0], one.radiance.pixels[1], one.radiance.pixels[2]);
+    sum += seen;
+    squares += seen * seen;
+    impulses += one.rays.impulse;
+  }
+  EXPECT_LE(impulses, std::uint64_t{kSeeds} * 64 * 5) << "one impulse a bounce";
+  for (int c = 0; c < 3; ++c) {
+    const double mean = sum[c] / kSeeds;
+    const double sigma = std::sqrt((squares[c] / kSeeds - mean * mean) / (kSeeds - 1));
+    EXPECT_GT(sigma, 0);
+    EXPECT_LT(sigma, 0.02) << "too noisy to tell";
+    EXPECT_NEAR(mean, all.radiance.pixels[c], 4 * sigma) << "channel " << c;
+  }
+}
+
+}  // namespace
+}  // namespace whittle::test

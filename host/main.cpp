@@ -1,7 +1,6 @@
 // Parse, run, exit status; the only place that catches. 0 done, 1 the run failed, 2 wrong usage or unusable input.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -17,14 +16,12 @@ int main(int argc, char** argv) {
   };
   try {
     return whittle::cli::runApplication(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return fail((std::string(e.what()) + " (see whittle --help)").c_str(), 2);
   } catch (const whittle::InputError& e) {
     return fail(e.what(), 2);
   } catch (const std::invalid_argument& e) {
     return fail(e.what(), 2);
   } catch (const std::bad_alloc&) {
-    return fail("out of memory", 1);
+    return fail("out of memory; a smaller picture, --wavefront or scene needs less", 1);
   } catch (const std::exception& e) {
     return fail(e.what(), 1);
   }

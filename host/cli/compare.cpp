@@ -1,11 +1,13 @@
 // whittle compare: how far a picture is from a reference.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/text.h"
 #include "image/metrics.h"
 
 namespace whittle::cli {
@@ -16,23 +18,50 @@ struct CompareOptions {
   bool json = false;
 };
 
+int colorChannels(const FloatImage& image) { return image.channels >= 3 ? 3 : 1; }
+
+std::string shapeOf(const std::filesystem::path& file, const FloatImage& image) {
+  return fmt::format("{} is {}×{} with {}", file.string(), image.width, image.height, colorChannels(image) == 3 ? "colours" : "one channel");
+}
+
+/// JSON has no NaN and no infinity: null says that the number is not finite.
+nlohmann::ordered_json finiteOrNull(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+void print(const ImageMetrics& m, std::uint64_t pixels) {
+  const auto line = [](const char* name, const std::string& value, const char* meaning) {
+    fmt::print("{:<16} {:>12}  {}\n", name, value, meaning);
+  };
+  line("rmse", fmt::format("{:.6g}", m.rmse), "root mean square difference");
+  line("relMse", fmt::format("{:.6g}", m.relMse), "mean of (a-b)²/(b²+0.01)");
+  line("maxAbs", fmt::format("{:.6g}", m.maxAbs), "largest difference of a channel");
+  line("flip", fmt::format("{:.6g}", m.flip), "mean FLIP of the tone-mapped pictures, 0 to 1");
+  line("differingPixels", formatInteger(m.differingPixels), fmt::format("of {} have other bits", formatInteger(pixels)).c_str());
+}
+
 int runCompare(const CompareOptions& o) {
   const FloatImage a = readFloatImage(o.a);
   const FloatImage b = readFloatImage(o.b);
-  if (a.width != b.width || a.height != b.height) {
-    fmt::print(stderr, "whittle: {} is {}×{} but {} is {}×{}\n", o.a.string(), a.width, a.height, o.b.string(), b.width, b.height);
+  if (a.width != b.width || a.height != b.height || colorChannels(a) != colorChannels(b)) {
+    fmt::print(stderr, "whittle: {} but {}: they cannot be compared\n", shapeOf(o.a, a), shapeOf(o.b, b));
     return 1;
   }
   const ImageMetrics m = compareImages(a, b);
-  if (o.json) {
-    const nlohmann::ordered_json json{{"rmse", m.rmse}, {"relMse", m.relMse}, {"maxAbs", m.maxAbs}, {"flip", m.flip},
-                                      {"differingPixels", m.differingPixels}, {"nonFinite", m.nonFinite + m.nonFiniteReference}};
-    fmt::print("{}\n", json.dump(2));
-  } else {
-    fmt::print("rmse             {:.6g}\nrelMse           {:.6g}\nmaxAbs           {:.6g}\nflip             {:.6g}\n"
-               "differingPixels  {} of {}\n", m.rmse, m.relMse, m.maxAbs, m.flip, m.differingPixels,
-               static_cast<long>(a.width) * a.height);
+  const auto pixels = static_cast<std::uint64_t>(a.width) * static_cast<std::uint64_t>(a.height);
+  if (m.nonFinite + m.nonFiniteReference > 0)
+    fmt::print(stderr, "warning: pixels that are not finite: {} in {}, {} in {}; {}\n", formatInteger(m.nonFinite), o.a.string(),
+               formatInteger(m.nonFiniteReference), o.b.string(),
+               o.json ? "numbers that are not finite are null" : "they make the numbers nan or inf");
+  if (!o.json) {
+    print(m, pixels);
+    return 0;
   }
+  const nlohmann::ordered_json json{{"rmse", finiteOrNull(m.rmse)},     {"relMse", finiteOrNull(m.relMse)},
+                                    {"maxAbs", finiteOrNull(m.maxAbs)}, {"flip", finiteOrNull(m.flip)},
+                                    {"differingPixels", m.differingPixels}, {"pixels", pixels},
+                                    {"nonFinite", m.nonFinite},         {"nonFiniteReference", m.nonFiniteReference}};
+  fmt::print("{}\n", json.dump(2));
   return 0;
 }
 
@@ -40,10 +69,14 @@ int runCompare(const CompareOptions& o) {
 
 void addCompare(CLI::App& app, int& status) {
   auto o = std::make_shared<CompareOptions>();
-  CLI::App* c = app.add_subcommand("compare", "error of picture A against reference B: rmse, relMse, maxAbs, flip, differingPixels");
-  c->add_option("A", o->a, "picture")->required();
-  c->add_option("B", o->b, "reference")->required();
-  c->add_flag("--json", o->json, "as JSON");
+  CLI::App* c = app.add_subcommand("compare", "how far picture A is from reference B");
+  c->option_defaults()->group("Pictures");
+  c->add_option("A", o->a, "picture, .exr, .hdr, .png or .jpg; sRGB is made linear")->required();
+  c->add_option("B", o->b, "reference of the same size")->required();
+  c->option_defaults()->group("Output");
+  c->add_flag("--json", o->json, "as JSON; a number that is not finite is null");
+  c->footer("Status 1 if the pictures have different sizes or numbers of colour channels.\n"
+            "Example: whittle compare picture.exr right.exr");
   c->callback([o, &status] { status = runCompare(*o); });
 }
 

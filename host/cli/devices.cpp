@@ -7,6 +7,7 @@
 #include "cl/device.h"
 #include "cl/program.h"
 #include "cli/commands.h"
+#include "cli/text.h"
 
 namespace whittle::cli {
 namespace {
@@ -24,27 +25,35 @@ void printJson(const DeviceList& list) {
                                {"computeUnits", d.computeUnits},
                                {"globalMemory", d.globalMemory},
                                {"largestBuffer", d.largestBuffer},
+                               {"maxWorkGroup", d.maxWorkGroup},
                                {"usable", d.usable},
                                {"reason", d.reason}});
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 void printTable(const DeviceList& list) {
   for (const auto& d : list.devices) {
     fmt::print("{}  {}  {}\n", d.index, d.kind, d.name);
-    fmt::print("   {}, {}, driver {}\n", d.platform, d.version, d.driver);
-    fmt::print("   {} compute units, {} memory, {} in one buffer\n", d.computeUnits, formatBytes(d.globalMemory), formatBytes(d.largestBuffer));
+    fmt::print("   {}\n", d.platform);
+    fmt::print("   {}\n   driver {}\n", d.version, d.driver);
+    fmt::print("   {}, {} of memory, {} at most in one buffer\n", formatSome(d.computeUnits, "compute unit", "compute units"),
+               formatBytes(d.globalMemory), formatBytes(d.largestBuffer));
     if (!d.usable) fmt::print("   not usable: {}\n", d.reason);
   }
   for (const auto& problem : list.problems) fmt::print("-  {}\n", problem);
+  if (list.devices.empty())
+    fmt::print("No OpenCL device. One that runs on any CPU is PoCL: `apt install pocl-opencl-icd` on Debian and\n"
+               "Ubuntu, `dnf install pocl` on Fedora. A GPU needs its vendor's OpenCL driver.\n");
 }
 
 }  // namespace
 
 void addDevices(CLI::App& app, int& status) {
   auto json = std::make_shared<bool>(false);
-  CLI::App* c = app.add_subcommand("devices", "list every OpenCL device, usable or not and why");
+  CLI::App* c = app.add_subcommand("devices", "every OpenCL device, usable or not and why");
+  c->option_defaults()->group("Output");
   c->add_flag("--json", *json, "as JSON");
+  c->footer("Example: whittle devices; whittle render scene.glb --device 0");
   c->callback([json, &status] {
     const DeviceList list = listDevices();
     *json ? printJson(list) : printTable(list);

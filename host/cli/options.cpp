@@ -5,9 +5,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <limits>
 #include <sstream>
 
+#include "cli/option_kinds.h"
 #include "scene/gltf_loader.h"
 #include "scene/image_io.h"
 #include "scene/input_error.h"
@@ -15,23 +16,7 @@
 namespace whittle::cli {
 namespace {
 
-const std::map<std::string, Search> kSearches{{"auto", Search::Auto}, {"tree", Search::Tree}, {"array", Search::Array}};
-const std::map<std::string, Sampler> kSamplers{
-    {"random", Sampler::Random}, {"stratified", Sampler::Stratified}, {"sobol", Sampler::Sobol}};
-const std::map<std::string, ImpulseMode> kImpulses{{"all", ImpulseMode::All}, {"one", ImpulseMode::One}};
-const std::map<std::string, Lanes> kLanes{{"auto", Lanes::Auto}, {"1", Lanes::One}, {"8", Lanes::Eight}};
-
-/// An option that takes one of a few words.
-template <typename T>
-void addChoice(CLI::App& command, const std::string& name, T& value, const std::map<std::string, T>& choices,
-               const std::string& text, const std::string& fallback) {
-  std::vector<std::string> words;
-  for (const auto& [word, unused] : choices) words.push_back(word);
-  auto* option = command.add_option_function<std::string>(
-      name, [&value, &choices](const std::string& word) { value = choices.at(word); }, text);
-  option->check(CLI::IsMember(words))->default_str(fallback)->type_name("");
-}
-
+/// "R,G,B", or one number for grey.
 bool parseRadiance(const std::string& text, glm::vec3& out) {
   std::istringstream in(text);
   char comma1 = 0, comma2 = 0;
@@ -46,60 +31,80 @@ bool parseRadiance(const std::string& text, glm::vec3& out) {
   return true;
 }
 
-void applyBackground(Scene& scene, const std::string& text) {
-  if (text.empty()) return;
-  glm::vec3 radiance;
-  if (parseRadiance(text, radiance)) {
-    if (!(radiance.r >= 0.0F && radiance.g >= 0.0F && radiance.b >= 0.0F) || !std::isfinite(radiance.r + radiance.g + radiance.b))
-      throw InputError("--background: radiance must be finite and not negative");
-    scene.background = {};
-    scene.background.radiance = radiance;
-    return;
+Background readBackground(const std::string& file) {
+  FloatImage image;
+  try {
+    image = readFloatImage(file);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("--background: neither R,G,B nor a picture that can be read: {}", e.what()));
   }
-  FloatImage image = readFloatImage(text);
   Background background{glm::vec3(1.0F), image.width, image.height, {}};
   const auto channels = static_cast<std::size_t>(image.channels);
+  background.map.reserve(image.pixels.size() / channels * 3);
   for (std::size_t p = 0; p < image.pixels.size() / channels; ++p)
     for (std::size_t c = 0; c < 3; ++c) {
       const float value = image.pixels[p * channels + (channels >= 3 ? c : 0)];
       background.map.push_back(value > 0.0F && std::isfinite(value) ? value : 0.0F);
     }
-  scene.background = std::move(background);
+  return background;
+}
+
+void applyBackground(Scene& scene, const std::string& text) {
+  if (text.empty()) return;
+  glm::vec3 radiance;
+  if (!parseRadiance(text, radiance)) {
+    scene.background = readBackground(text);
+    return;
+  }
+  if (!(radiance.r >= 0.0F && radiance.g >= 0.0F && radiance.b >= 0.0F) || !std::isfinite(radiance.r + radiance.g + radiance.b))
+    throw InputError(fmt::format("--background: '{}': radiance must be finite and not negative", text));
+  scene.background = {};
+  scene.background.radiance = radiance;
 }
 
 }  // namespace
 
-void addSceneOptions(CLI::App& command, SceneOptions& options) {
-  command.add_option("SCENE", options.file, "glTF 2.0 file, .gltf or .glb")->required();
-  command.add_option("--scene", options.scene, "scene of the file, by name or index")->type_name("NAME|INDEX");
-  command.add_option("--background", options.background, "radiance seen by rays that leave the scene: R,G,B in W/(m² sr), or an equirectangular .hdr/.exr")
-      ->type_name("R,G,B|FILE");
-  command.add_flag("--quiet", options.quiet, "no progress, no notes; warnings and errors only");
+void addSceneOptions(CLI::App& c, SceneOptions& o) {
+  c.option_defaults()->group("Scene");
+  c.add_option("SCENE", o.file, "glTF 2.0 file, .gltf or .glb")->required()->type_name("");
+  addText(c, "--scene", [&o](const std::string& v) { o.scene = v; },
+          {"NAME|INDEX", "which scene of the file", "the file's default"});
+  addText(c, "--background", [&o](const std::string& v) { o.background = v; },
+          {"R,G,B|FILE", "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr", "as the file says"});
 }
 
 void addPictureOptions(CLI::App& c, Settings& s) {
-  c.add_option("--width", s.width, "picture width, pixels")->capture_default_str()->check(CLI::Range(1, 65535));
-  c.add_option("--height", s.height, "picture height, pixels")->capture_default_str()->check(CLI::Range(1, 65535));
-  c.add_option("--camera", s.camera, "camera by name or index")->capture_default_str()->type_name("NAME|INDEX");
-  c.add_option("--exposure", s.exposure, "for .png and .jpg, stops")->capture_default_str()->check(CLI::Range(-60.0F, 60.0F));
-  c.add_option("--bounces", s.bounces, "backward tracing steps; 1 = direct light only")->capture_default_str()->check(CLI::Range(1, 4096));
-  c.add_option("--rays-per-pixel", s.raysPerPixel, "primary rays; 1 = through the pixel's centre")->capture_default_str()->check(CLI::Range(1, 1 << 24));
-  c.add_flag("--shadows,!--no-shadows", s.shadows, "shadow rays (on)");
-  addChoice(c, "--sampler", s.sampler, kSamplers, "random|stratified|sobol positions in the pixel", "random");
-  c.add_option("--seed", s.seed, "of every random number")->capture_default_str();
-  addChoice(c, "--impulses", s.impulses, kImpulses, "all|one: both branches of a surface, or one chosen at random", "all");
-  c.add_option_function<float>("--bump", [&s](float v) { s.bump = v; }, "ray origin offset, metres (default: from each hit's rounding error)")
-      ->check(CLI::NonNegativeNumber);
-  c.add_option("--mirror-roughness", s.mirrorRoughness, "surfaces smoother than this reflect as mirrors")->capture_default_str()->check(CLI::Range(0.0F, 1.0F));
+  c.option_defaults()->group("Picture");
+  addWhole(c, "--width", s.width, 1, 65535, "PIXELS", "width of the picture");
+  addWhole(c, "--height", s.height, 1, 65535, "PIXELS", "height of the picture");
+  addText(c, "--camera", [&s](const std::string& v) { s.camera = v; }, {"NAME|INDEX", "camera of the scene", s.camera});
+  addReal(c, "--exposure", s.exposure, -60, 60, "STOPS", "brightness of .png and .jpg", "0");
+
+  c.option_defaults()->group("Light");
+  addWhole(c, "--bounces", s.bounces, 1, 4096, "N", "backward tracing steps; 1 = direct light only");
+  addWhole(c, "--rays-per-pixel", s.raysPerPixel, 1, 1 << 24, "N", "primary rays; 1 = through the pixel's centre");
+  c.add_flag("--shadows,!--no-shadows", s.shadows, "trace shadow rays [on]");
+  addChoice<Sampler>(c, "--sampler", s.sampler,
+                     {{"random", Sampler::Random}, {"stratified", Sampler::Stratified}, {"sobol", Sampler::Sobol}},
+                     "where in the pixel its rays start");
+  addWhole(c, "--seed", s.seed, 0, std::numeric_limits<std::uint32_t>::max(), "N", "of every random number");
+  addChoice<ImpulseMode>(c, "--impulses", s.impulses, {{"all", ImpulseMode::All}, {"one", ImpulseMode::One}},
+                         "follow both branches of a surface, or one chosen at random");
+  addReal(c, "--bump", s.bump, 0, 1e30, "METRES", "distance of a ray's origin from its surface", "from the rounding error of each hit");
+  addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R", "surfaces smoother than this are mirrors", fmt::format("{}", s.mirrorRoughness));
 }
 
 void addDeviceOptions(CLI::App& c, Settings& s) {
-  addChoice(c, "--search", s.search, kSearches, "auto|tree|array: how the nearest triangle is found", "auto");
-  c.add_option("--device", s.device, "index from `whittle devices`, part of a name, or cpu|gpu")->type_name("SELECTOR");
-  c.add_option("--threads", s.threads, "threads of a CPU device; 0: all")->capture_default_str()->check(CLI::Range(0, 4096));
-  c.add_option("--wavefront", s.wavefront, "rays in flight, at least 512")->capture_default_str()->check(CLI::Range(1, 1 << 28));
-  c.add_option("--work-group", s.workGroup, "work items in a group; 0: chosen for the device")->capture_default_str()->check(CLI::Range(0, 65536));
-  addChoice(c, "--lanes", s.lanes, kLanes, "auto|1|8: rays for each work item of the searches", "auto");
+  c.option_defaults()->group("Device");
+  addText(c, "--device", [&s](const std::string& v) { s.device = v; },
+          {"SELECTOR", "index from `whittle devices`, part of a name, or cpu|gpu", "the first CPU, else the first"});
+  addWhole(c, "--threads", s.threads, 0, 4096, "N", "threads of a CPU device and of the tree builder", "0: all");
+  addWhole(c, "--wavefront", s.wavefront, 1, 1 << 28, "N", "rays in flight; raised to 512 and lowered to what the picture needs");
+  addWhole(c, "--work-group", s.workGroup, 0, 65536, "N", "work items of a group", "0: chosen for the device");
+  addChoice<Search>(c, "--search", s.search, {{"auto", Search::Auto}, {"tree", Search::Tree}, {"array", Search::Array}},
+                    "how the nearest triangle is found");
+  addChoice<Lanes>(c, "--lanes", s.lanes, {{"auto", Lanes::Auto}, {"1", Lanes::One}, {"8", Lanes::Eight}},
+                   "rays that one work item searches for");
   c.add_flag("--keep-all-features", s.keepAllFeatures, "compile and run everything, needed or not");
 }
 
@@ -112,25 +117,6 @@ Scene loadScene(const SceneOptions& options, Notices& notices) {
   if (!options.quiet)
     for (const auto& text : notices.notes) fmt::print(stderr, "note: {}\n", text);
   return scene;
-}
-
-Scene loadScene(const SceneOptions& options) {
-  Notices notices;
-  return loadScene(options, notices);
-}
-
-std::string formatCount(double count) {
-  if (count >= 1e9) return fmt::format("{:.2f} G", count * 1e-9);
-  if (count >= 1e6) return fmt::format("{:.2f} M", count * 1e-6);
-  if (count >= 1e4) return fmt::format("{:.1f} k", count * 1e-3);
-  return fmt::format("{:.0f}", count);
-}
-
-std::string formatSeconds(double seconds) {
-  if (seconds < 60.0) return fmt::format("{:.1f} s", seconds);
-  const auto whole = static_cast<long>(seconds);
-  if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
-  return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
 }  // namespace whittle::cli

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "scene/notices.h"
 #include "scene/scene.h"
@@ -26,13 +25,7 @@ void addPictureOptions(CLI::App& command, Settings& settings);
 /// Settings of the device path alone.
 void addDeviceOptions(CLI::App& command, Settings& settings);
 
-/// Loads, applies the background, prints notices to standard error (unless quiet: then warnings only).
+/// Loads, applies the background, prints notices to standard error (quiet: warnings only).
 Scene loadScene(const SceneOptions& options, Notices& notices);
-/// The same with a Notices of its own.
-Scene loadScene(const SceneOptions& options);
-
-/// Whole seconds and rates for people: "1.2 M", "3:05".
-std::string formatCount(double count);
-std::string formatSeconds(double seconds);
 
 }  // namespace whittle::cli

@@ -2,55 +2,104 @@
 #include "cli/outputs.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <stdexcept>
 
 #include "image/tone_map.h"
 #include "scene/input_error.h"
+#include "scene/whole_file.h"
 
 namespace whittle::cli {
+namespace {
 
-AovOutput parseAov(const std::string& text) {
-  static const std::array<std::string, 4> kNames{"depth", "normal", "albedo", "primitive"};
+namespace fs = std::filesystem;
+
+bool isExr(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".exr";
+}
+
+/// /dev/null, /dev/stdout, a named pipe: no file to replace.
+bool isStream(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+void writeStream(const fs::path& path, const std::string& text) {
+  std::FILE* const out = std::fopen(path.c_str(), "wb");
+  bool written = out != nullptr && std::fwrite(text.data(), 1, text.size(), out) == text.size();
+  written = written && std::fflush(out) == 0;
+  const int error = errno;
+  if (out != nullptr) std::fclose(out);
+  if (!written) throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(error)));
+}
+
+}  // namespace
+
+AovOutput parseAov(const std::string& text, const std::vector<std::string>& names) {
   const auto equals = text.find('=');
   const std::string name = text.substr(0, equals);
-  if (equals == std::string::npos || std::find(kNames.begin(), kNames.end(), name) == kNames.end())
-    throw InputError(fmt::format("--aov: '{}' is not NAME=FILE with NAME one of depth, normal, albedo, primitive", text));
+  if (equals == std::string::npos || std::find(names.begin(), names.end(), name) == names.end())
+    throw InputError(fmt::format("--aov: '{}' is not NAME=FILE with NAME one of {}", text, fmt::join(names, ", ")));
   AovOutput aov{name, text.substr(equals + 1)};
-  if (aov.file.extension() != ".exr") throw InputError(fmt::format("--aov: {} must end in .exr: it holds floats", aov.file.string()));
+  if (!isExr(aov.file)) throw InputError(fmt::format("--aov: '{}' must end in .exr: it holds floats", aov.file.string()));
   return aov;
 }
 
-void writePicture(const std::filesystem::path& file, const FloatImage& radiance, float exposure, const ImageMetadata& metadata) {
-  if (file.extension() == ".exr") {
+void OutputCheck::claim(const std::string& option, const fs::path& file) {
+  const auto same = [&](const fs::path& other) {
+    std::error_code error;
+    return fs::weakly_canonical(other, error) == fs::weakly_canonical(file, error);
+  };
+  if (isStream(file)) return;
+  if (same(used_.front())) throw InputError(fmt::format("{}: {} is the input; it would be overwritten", option, file.string()));
+  if (std::any_of(used_.begin() + 1, used_.end(), same))
+    throw InputError(fmt::format("{}: {} is named for two outputs", option, file.string()));
+  used_.push_back(file);
+}
+
+void OutputCheck::picture(const std::string& option, const fs::path& file) {
+  try {
+    checkWritable(file);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: {}", option, e.what()));
+  }
+  if (isStream(file)) throw InputError(fmt::format("{}: {} is not a regular file", option, file.string()));
+  claim(option, file);
+}
+
+void OutputCheck::text(const std::string& option, const fs::path& file) {
+  if (file.empty()) return;
+  try {
+    checkFolderWritable(file);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: {}", option, e.what()));
+  }
+  claim(option, file);
+}
+
+void writePicture(const fs::path& file, const FloatImage& radiance, float exposure, const ImageMetadata& metadata) {
+  if (isExr(file))
     writeExr(file, radiance, metadata);
-    return;
-  }
-  writeRgb8(file, radiance.width, radiance.height, toneMap(radiance, exposure), metadata);
+  else
+    writeRgb8(file, radiance.width, radiance.height, toneMap(radiance, exposure), metadata);
 }
 
-void checkTextFile(const std::filesystem::path& file, const std::string& option) {
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder)) throw InputError(fmt::format("{}: folder {} does not exist", option, folder.string()));
-  if (access(folder.c_str(), W_OK) != 0) throw InputError(fmt::format("{}: folder {} cannot be written", option, folder.string()));
-  if (std::filesystem::is_directory(file)) throw InputError(fmt::format("{}: {} is a folder", option, file.string()));
-}
-
-void writeTextFile(const std::filesystem::path& file, const std::string& text) {
-  std::filesystem::path temporary = file;
-  temporary += fmt::format(".{}.part", getpid());
-  std::ofstream out(temporary, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(temporary, file, error);
-  if (!out || error) {
-    std::filesystem::remove(temporary, error);
-    throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
-  }
+void writeTextFile(const fs::path& file, const std::string& text) {
+  if (isStream(file))
+    writeStream(file, text);
+  else
+    writeWholeFile(file, std::as_bytes(std::span(text)));
 }
 
 }  // namespace whittle::cli

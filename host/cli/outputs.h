@@ -1,4 +1,4 @@
-// Where pictures go: checked before a render, written whole after it.
+// Where pictures and reports go: checked before a render, written whole after it.
 #pragma once
 
 #include <filesystem>
@@ -15,15 +15,31 @@ struct AovOutput {
   std::filesystem::path file;
 };
 
-/// Throws InputError unless it is NAME=FILE with a name that exists.
-AovOutput parseAov(const std::string& text);
+/// Throws InputError unless it is NAME=FILE.exr with a name among `names`.
+AovOutput parseAov(const std::string& text, const std::vector<std::string>& names);
+
+/// Everything that one command will write, so that the checks happen in one place.
+class OutputCheck {
+ public:
+  /// `input`: the scene, which no output may replace.
+  explicit OutputCheck(std::filesystem::path input) : used_{std::move(input)} {}
+
+  /// Throws InputError unless `file` can be written as a picture, and is not named twice.
+  void picture(const std::string& option, const std::filesystem::path& file);
+  /// The same for a text file; an empty path is no file.
+  void text(const std::string& option, const std::filesystem::path& file);
+
+ private:
+  void claim(const std::string& option, const std::filesystem::path& file);
+
+  std::vector<std::filesystem::path> used_;
+};
 
 /// .exr: linear floats; .png/.jpg: tone-mapped at `exposure` stops. `metadata` goes into the file.
 void writePicture(const std::filesystem::path& file, const FloatImage& radiance, float exposure, const ImageMetadata& metadata);
 
-/// Writes text to a file that appears whole or not at all. Throws std::runtime_error.
+/// Writes text to a file that appears whole or not at all; devices and pipes are written to as they are.
+/// Throws std::runtime_error.
 void writeTextFile(const std::filesystem::path& file, const std::string& text);
-/// Throws InputError unless the file's folder exists and can be written.
-void checkTextFile(const std::filesystem::path& file, const std::string& option);
 
 }  // namespace whittle::cli

@@ -1,45 +1,60 @@
-// Terminal progress.
+// Terminal progress. A line never wraps, because a wrapped line cannot be taken back.
 #include "cli/progress_bar.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 
-#include "cli/options.h"
+#include "cli/text.h"
 
 namespace whittle::cli {
+namespace {
+
+std::size_t terminalColumns() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+}  // namespace
 
 ProgressBar::ProgressBar(bool quiet) : on_(!quiet && isatty(STDERR_FILENO)) {}
 
 ProgressBar::~ProgressBar() { clear(); }
 
 void ProgressBar::clear() {
-  if (shown_) fmt::print(stderr, "\r\033[K");
+  if (!shown_) return;
+  std::fputs("\r\033[K", stderr);
   std::fflush(stderr);
   shown_ = false;
 }
 
-void ProgressBar::phase(const std::string& text) {
-  if (!on_) return;
-  fmt::print(stderr, "\r\033[K{} …", text);
+void ProgressBar::show(const std::string& line) {
+  fmt::print(stderr, "\r\033[K{}", line);
   std::fflush(stderr);
   shown_ = true;
+}
+
+void ProgressBar::phase(const std::string& text) {
+  if (on_) show(text + " …");
 }
 
 void ProgressBar::update(double fraction, double seconds, const std::string& rate) {
   const auto now = std::chrono::steady_clock::now();
   if (!on_ || now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
-  constexpr int kWidth = 30;
-  const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kWidth);
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  std::string text = fmt::format("{:3.0f} %", 100.0 * fraction);
+  if (!rate.empty()) text += "  " + rate;
+  if (fraction > 0.0) text += "  " + formatSeconds(seconds / fraction - seconds) + " left";
+  const std::size_t columns = terminalColumns();
+  const std::size_t used = columnsOf(text) + 2;
+  const int cells = used < columns ? static_cast<int>(std::min<std::size_t>(30, columns - used)) : 0;
   std::string bar;
-  for (int i = 0; i < kWidth; ++i) bar += i < filled ? "█" : "░";
-  const std::string left = fraction > 0.0 ? formatSeconds(seconds / fraction - seconds) + " left" : "";
-  fmt::print(stderr, "\r\033[K{} {:3.0f} %  {}  {}", bar, 100.0 * fraction, rate, left);
-  std::fflush(stderr);
-  shown_ = true;
+  for (int i = 0; i < cells; ++i) bar += i < static_cast<int>(fraction * cells) ? "█" : "░";
+  show(cells > 0 ? bar + " " + text : fmt::format("{:3.0f} %", 100.0 * fraction));
 }
 
 }  // namespace whittle::cli

@@ -19,6 +19,8 @@ class ProgressBar {
   void clear();
 
  private:
+  void show(const std::string& line);
+
   bool on_;
   bool shown_ = false;
   std::chrono::steady_clock::time_point last_{};

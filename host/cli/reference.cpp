@@ -5,12 +5,14 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/option_kinds.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
+#include "cli/signals.h"
+#include "cli/text.h"
 #include "reference/reference.h"
 #include "render/stats.h"
-#include "scene/input_error.h"
 
 namespace whittle::cli {
 namespace {
@@ -21,20 +23,44 @@ struct ReferenceOptions {
   std::vector<std::filesystem::path> outputs;
   std::vector<std::string> aovTexts;
   std::filesystem::path stats;
+
+  std::vector<AovOutput> aovs;  ///< aovTexts, parsed
 };
 
-void runReference(const ReferenceOptions& o) {
-  std::vector<AovOutput> aovs;
-  for (const auto& text : o.aovTexts) {
-    aovs.push_back(parseAov(text));
-    if (aovs.back().name != "depth" && aovs.back().name != "primitive")
-      throw InputError("--aov: the reference knows depth and primitive");
-    checkWritable(aovs.back().file);
-  }
-  for (const auto& file : o.outputs) checkWritable(file);
-  if (!o.stats.empty()) checkTextFile(o.stats, "--stats");
-  const Scene scene = loadScene(o.scene);
+void checkOutputs(ReferenceOptions& o) {
+  OutputCheck check(o.scene.file);
+  for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, {"depth", "primitive"}));
+  for (const auto& file : o.outputs) check.picture("--output", file);
+  for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
+  check.text("--stats", o.stats);
+}
 
+std::string statsText(const ReferenceOptions& o, const Scene& scene, const ReferenceResult& result, double seconds) {
+  const auto& rays = result.rays;
+  const nlohmann::ordered_json json{
+      {"scene", {{"file", scene.file}, {"triangles", scene.triangles.size()}, {"droppedTriangles", scene.droppedTriangles},
+                 {"materials", scene.materials.size()}, {"lights", scene.lights.size()}, {"textures", scene.images.size()}}},
+      {"settings", settingsToJson(o.settings)},
+      {"rays", {{"primary", rays.primary}, {"impulse", rays.impulse}, {"shadow", rays.shadow}, {"total", rays.total()}}},
+      {"time", {{"render", seconds}}},
+      {"nonFinite", result.nonFinite}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void writeResults(const ReferenceOptions& o, const Scene& scene, const ReferenceResult& result, double seconds) {
+  const HoldSignals whole;
+  const ImageMetadata metadata{{"whittle:settings", settingsToJson(o.settings).dump()},
+                               {"whittle:scene", o.scene.file.filename().string()},
+                               {"whittle:reference", "double precision"}};
+  for (const auto& file : o.outputs) writePicture(file, result.radiance, o.settings.exposure, metadata);
+  for (const auto& aov : o.aovs) writeExr(aov.file, aov.name == "depth" ? result.depth : result.primitive, metadata);
+  if (!o.stats.empty()) writeTextFile(o.stats, statsText(o, scene, result, seconds));
+}
+
+void runReference(ReferenceOptions& o) {
+  checkOutputs(o);
+  Notices notices;
+  const Scene scene = loadScene(o.scene, notices);
   ProgressBar bar(o.scene.quiet);
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
@@ -43,24 +69,17 @@ void runReference(const ReferenceOptions& o) {
   });
   bar.clear();
   const double elapsed = seconds();
-
-  const ImageMetadata metadata{{"whittle:settings", settingsToJson(o.settings).dump()}, {"whittle:reference", "double precision"}};
-  for (const auto& file : o.outputs) writePicture(file, result.radiance, o.settings.exposure, metadata);
-  for (const auto& aov : aovs) writeExr(aov.file, aov.name == "depth" ? result.depth : result.primitive, metadata);
-  if (!o.stats.empty()) {
-    const nlohmann::ordered_json json{{"settings", settingsToJson(o.settings)},
-                                      {"rays",
-                                       {{"primary", result.rays.primary},
-                                        {"impulse", result.rays.impulse},
-                                        {"shadow", result.rays.shadow},
-                                        {"total", result.rays.total()}}},
-                                      {"time", {{"render", elapsed}}}};
-    writeTextFile(o.stats, json.dump(2) + "\n");
-  }
+  if (result.nonFinite > 0)
+    fmt::print(stderr, "warning: {} samples were not finite and count as black\n", formatInteger(result.nonFinite));
+  writeResults(o, scene, result, elapsed);
   if (o.scene.quiet) return;
-  fmt::print("reference: {} rays ({} primary, {} impulse, {} shadow) in {}\n", result.rays.total(), result.rays.primary,
-             result.rays.impulse, result.rays.shadow, formatSeconds(elapsed));
+  const auto& rays = result.rays;
+  fmt::print("{}×{} in double precision: {} rays in {}\n{} primary, {} impulse, {} shadow\n", o.settings.width, o.settings.height,
+             formatInteger(rays.total()), formatSeconds(elapsed), formatInteger(rays.primary), formatInteger(rays.impulse),
+             formatInteger(rays.shadow));
   for (const auto& file : o.outputs) fmt::print("wrote {}\n", file.string());
+  for (const auto& aov : o.aovs) fmt::print("wrote {} ({})\n", aov.file.string(), aov.name);
+  if (!o.stats.empty()) fmt::print("wrote {}\n", o.stats.string());
 }
 
 }  // namespace
@@ -69,10 +88,14 @@ void addReference(CLI::App& app, int& status) {
   auto o = std::make_shared<ReferenceOptions>();
   CLI::App* c = app.add_subcommand("reference", "render with the double-precision recursion (slow, right)");
   addSceneOptions(*c, o->scene);
-  c->add_option("-o,--output", o->outputs, "picture(s): .exr, .png or .jpg")->required()->type_name("FILE")->allow_extra_args(false);
+  c->option_defaults()->group("Output");
+  addSeveral(*c, "-o,--output", o->outputs, "FILE",
+             ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times")->required();
+  addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE", "depth|primitive of each pixel's first sample, as .exr; may be given several times");
+  addFile(*c, "--stats", o->stats, "FILE", "settings, ray counts and time as JSON");
+  c->add_flag("--quiet", o->scene.quiet, "no progress, notes or summary");
   addPictureOptions(*c, o->settings);
-  c->add_option("--aov", o->aovTexts, "depth|primitive of each pixel's first sample, .exr")->type_name("NAME=FILE")->allow_extra_args(false);
-  c->add_option("--stats", o->stats, "settings, ray counts and time as JSON")->type_name("FILE");
+  c->footer("Example: whittle reference scene.glb -o right.exr --width 320 --height 180");
   c->callback([o, &status] {
     runReference(*o);
     status = 0;

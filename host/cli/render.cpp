@@ -5,97 +5,153 @@
 #include <cstdio>
 #include <memory>
 
+#include "cl/device.h"
 #include "cli/commands.h"
+#include "cli/option_kinds.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "cli/profile_table.h"
 #include "cli/progress_bar.h"
+#include "cli/signals.h"
+#include "cli/text.h"
 #include "render/renderer.h"
 
 namespace whittle::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 struct RenderOptions {
   SceneOptions scene;
   Settings settings;
   std::vector<std::filesystem::path> outputs;
   std::vector<std::string> aovTexts;
-  std::filesystem::path stats;
-  std::filesystem::path kernelFolder;
+  std::filesystem::path stats, trace, reference, kernelFolder;
   bool profile = false;
+
+  std::vector<AovOutput> aovs;  ///< aovTexts, parsed
 };
 
-/// Rays that a stage's items stand for, or 0 where "rays/s" makes no sense.
-bool tracesRays(const std::string& stage) { return stage == "intersect" || stage == "occlude"; }
+/// Fills in the default output and refuses, before anything is loaded, what could not be written at the end.
+void checkOutputs(RenderOptions& o) {
+  if (o.outputs.empty() && o.stats.empty() && o.trace.empty() && o.aovTexts.empty() && !o.profile)
+    o.outputs.emplace_back(o.scene.file.stem().string() + ".png");
+  OutputCheck check(o.scene.file);
+  for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, {"depth", "normal", "albedo", "primitive"}));
+  for (const auto& file : o.outputs) check.picture("--output", file);
+  for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
+  check.text("--stats", o.stats);
+  check.text("--trace", o.trace);
+  if (!o.kernelFolder.empty() && !std::filesystem::is_directory(o.kernelFolder))
+    throw InputError(fmt::format("--kernels: {} is no folder", o.kernelFolder.string()));
+}
 
-void printProfile(const Stats& stats) {
-  double sum = 0.0;
-  for (const auto& s : stats.stages) sum += s.seconds;
-  fmt::print("{:<22} {:>9} {:>12} {:>10} {:>7}  {}\n", "stage", "launches", "items", "ms", "share", "rate");
-  for (const auto& s : stats.stages) {
-    const double rate = s.seconds > 0.0 ? static_cast<double>(s.items) / s.seconds * 1e-6 : 0.0;
-    fmt::print("{:<22} {:>9} {:>12} {:>10.3f} {:>6.1f} %  {:.1f} {}\n", s.name, s.launches, s.items, s.seconds * 1e3,
-               100.0 * s.seconds / sum, rate, tracesRays(s.name) ? "Mrays/s" : "Mitems/s");
+FloatImage readReference(const RenderOptions& o) {
+  if (o.reference.empty()) return {};
+  FloatImage image;
+  try {
+    image = readFloatImage(o.reference);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("--reference: {}", e.what()));
   }
-  fmt::print("{:<22} {:>9} {:>12} {:>10.3f}\n", "all stages", "", "", sum * 1e3);
-  fmt::print("{:<22} {:>9} {:>12} {:>10.3f}\n", "render, wall", "", "", stats.time.render * 1e3);
-  fmt::print("load {:.3f} s, tree {:.3f} s, compile {:.3f} s, upload {:.3f} s, write {:.3f} s, total {:.3f} s\n", stats.time.load,
-             stats.time.build, stats.time.compile, stats.time.upload, stats.time.write, stats.time.total);
+  if (image.width != o.settings.width || image.height != o.settings.height)
+    throw InputError(fmt::format("--reference: {} is {}×{} but the picture is {}×{}; set --width and --height", o.reference.string(),
+                                 image.width, image.height, o.settings.width, o.settings.height));
+  if (image.channels < 3) throw InputError(fmt::format("--reference: {} has no colours", o.reference.string()));
+  return image;
 }
 
-void printSummary(const RenderOptions& o, const Stats& stats) {
-  const double total = static_cast<double>(stats.rays.total());
-  fmt::print("{}×{}, {} triangles, {} rays ({} primary, {} impulse, {} shadow) in {:.3f} s: {:.2f} Mrays/s\n", stats.settings.width,
-             stats.settings.height, stats.scene.triangles, stats.rays.total(), stats.rays.primary, stats.rays.impulse,
-             stats.rays.shadow, stats.time.render, total / stats.time.render * 1e-6);
-  for (const auto& file : o.outputs) fmt::print("wrote {}\n", file.string());
-  for (const auto& text : o.aovTexts) fmt::print("wrote {}\n", text);
-}
-
-RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o) {
+RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, const FloatImage& reference, Trace* trace) {
   ProgressBar bar(o.scene.quiet);
   RenderHooks hooks;
   if (!o.kernelFolder.empty()) hooks.kernelFolder = o.kernelFolder;
+  if (!o.reference.empty()) hooks.reference = &reference;
+  hooks.trace = trace;
   hooks.phase = [&](const std::string& text) { bar.phase(text); };
   hooks.progress = [&](const RenderProgress& p) {
     bar.update(static_cast<double>(p.samplesDone) / static_cast<double>(p.samplesTotal), p.seconds,
                fmt::format("{:.1f} Mrays/s", static_cast<double>(p.rays) / p.seconds * 1e-6));
   };
-  return render(scene, o.settings, hooks);
+  try {
+    return render(scene, o.settings, hooks);
+  } catch (const std::invalid_argument& e) {
+    // With nothing asked for, a machine without a device is no wrong usage.
+    if (!o.settings.device.empty()) throw;
+    throw std::runtime_error(fmt::format("{}; a CPU device needs only pocl-opencl-icd or your system's PoCL package", e.what()));
+  }
+}
+
+ImageMetadata pictureMetadata(const RenderOptions& o, const Stats& stats) {
+  return {{"whittle:settings", settingsToJson(stats.settings).dump()},
+          {"whittle:scene", o.scene.file.filename().string()},
+          {"whittle:rays", fmt::format("primary {} impulse {} shadow {}", stats.rays.primary, stats.rays.impulse, stats.rays.shadow)},
+          {"whittle:renderSeconds", fmt::format("{:.6f}", stats.time.render)}};
+}
+
+/// The statistics with the options that only this command knows.
+std::string statsText(const RenderOptions& o, const Stats& stats) {
+  nlohmann::ordered_json json = statsToJson(stats);
+  auto& s = json["settings"];
+  const auto path = [](const std::filesystem::path& p) { return p.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(p.string()); };
+  s["scene"] = path(o.scene.scene);
+  s["background"] = path(o.scene.background);
+  s["output"] = nlohmann::ordered_json::array();
+  for (const auto& file : o.outputs) s["output"].push_back(file.string());
+  s["aov"] = o.aovTexts;
+  s["stats"] = path(o.stats);
+  s["profile"] = o.profile;
+  s["trace"] = path(o.trace);
+  s["reference"] = path(o.reference);
+  s["kernels"] = path(o.kernelFolder);
+  s["quiet"] = o.scene.quiet;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void writeResults(const RenderOptions& o, RenderResult& result, Clock::time_point start, Trace* trace) {
+  const HoldSignals whole;
+  const auto writing = Clock::now();
+  const ImageMetadata metadata = pictureMetadata(o, result.stats);
+  for (const auto& file : o.outputs) writePicture(file, result.radiance, o.settings.exposure, metadata);
+  for (const auto& aov : o.aovs) writeExr(aov.file, result.aovs.at(aov.name), metadata);
+  result.stats.time.write = since(writing);
+  if (trace) {
+    trace->phase("write", writing);
+    writeTextFile(o.trace, trace->toJson().dump() + "\n");
+  }
+  result.stats.time.total = since(start);
+  if (!o.stats.empty()) writeTextFile(o.stats, statsText(o, result.stats));
+}
+
+void report(const RenderOptions& o, const Stats& stats) {
+  if (o.profile) fmt::print("{}", profileTable(stats));
+  if (o.scene.quiet) return;
+  fmt::print("{}{}", o.profile ? "\n" : "", renderSummary(stats));
+  for (const auto& file : o.outputs) fmt::print("wrote {}\n", file.string());
+  for (const auto& aov : o.aovs) fmt::print("wrote {} ({})\n", aov.file.string(), aov.name);
+  if (!o.stats.empty()) fmt::print("wrote {}\n", o.stats.string());
+  if (!o.trace.empty()) fmt::print("wrote {} (open it in https://ui.perfetto.dev)\n", o.trace.string());
 }
 
 void runRender(RenderOptions& o) {
   const auto start = Clock::now();
-  const auto since = [](Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
-  if (o.outputs.empty() && o.stats.empty() && o.aovTexts.empty() && !o.profile) o.outputs.push_back(o.scene.file.stem().string() + ".png");
-  std::vector<AovOutput> aovs;
-  for (const auto& text : o.aovTexts) aovs.push_back(parseAov(text));
-  for (const auto& file : o.outputs) checkWritable(file);
-  for (const auto& aov : aovs) checkWritable(aov.file);
-  if (!o.stats.empty()) checkTextFile(o.stats, "--stats");
-  o.settings.aovs = !aovs.empty();
+  checkOutputs(o);
+  o.settings.aovs = !o.aovs.empty();
+  const FloatImage reference = readReference(o);
+  std::unique_ptr<Trace> trace;
+  if (!o.trace.empty()) trace = std::make_unique<Trace>();
+  limitCpuThreads(o.settings.threads);
 
-  const Scene scene = loadScene(o.scene);
+  Notices notices;
+  const Scene scene = loadScene(o.scene, notices);
+  if (trace) trace->phase("load", start);
   const double load = since(start);
-  RenderResult result = renderWithProgress(scene, o);
+  RenderResult result = renderWithProgress(scene, o, reference, trace.get());
   result.stats.time.load = load;
   if (result.stats.nonFinite > 0)
-    fmt::print(stderr, "warning: {} samples were not finite and count as black\n", result.stats.nonFinite);
-
-  const auto writing = Clock::now();
-  const ImageMetadata metadata{{"whittle:settings", settingsToJson(result.stats.settings).dump()},
-                               {"whittle:scene", o.scene.file.filename().string()},
-                               {"whittle:rays", fmt::format("primary {} impulse {} shadow {}", result.stats.rays.primary,
-                                                            result.stats.rays.impulse, result.stats.rays.shadow)},
-                               {"whittle:renderSeconds", fmt::format("{:.6f}", result.stats.time.render)}};
-  for (const auto& file : o.outputs) writePicture(file, result.radiance, o.settings.exposure, metadata);
-  for (const auto& aov : aovs) writeExr(aov.file, result.aovs.at(aov.name), metadata);
-  result.stats.time.write = since(writing);
-  result.stats.time.total = since(start);
-  if (!o.stats.empty()) writeTextFile(o.stats, statsToJson(result.stats).dump(2) + "\n");
-  if (o.profile) printProfile(result.stats);
-  if (!o.scene.quiet) printSummary(o, result.stats);
+    fmt::print(stderr, "warning: {} samples were not finite and count as black\n", formatInteger(result.stats.nonFinite));
+  writeResults(o, result, start, trace.get());
+  report(o, result.stats);
 }
 
 }  // namespace
@@ -104,17 +160,22 @@ void addRender(CLI::App& app, int& status) {
   auto o = std::make_shared<RenderOptions>();
   CLI::App* c = app.add_subcommand("render", "render a scene on an OpenCL device");
   addSceneOptions(*c, o->scene);
-  c->add_option("-o,--output", o->outputs, "picture(s): .exr linear radiance, .png/.jpg tone-mapped sRGB (default: SCENE's name .png)")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+  c->option_defaults()->group("Output");
+  addSeveral(*c, "-o,--output", o->outputs, "FILE",
+             ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times [SCENE's name .png]");
+  addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE", "depth|normal|albedo|primitive of each pixel's first sample, as .exr; may be given several times");
+  addFile(*c, "--stats", o->stats, "FILE", "statistics as JSON");
+  c->add_flag("--profile", o->profile, "print time and rate of each stage");
+  addFile(*c, "--trace", o->trace, "FILE", "every kernel launch as Chrome/Perfetto JSON");
+  c->add_flag("--quiet", o->scene.quiet, "no progress, notes or summary; warnings, errors and --profile only");
   addPictureOptions(*c, o->settings);
+  c->option_defaults()->group("Error against time");
+  addReal(*c, "--target-error", o->settings.targetError, 0, 1e30, "E", "stop once the estimated RMSE in W/(m² sr) is at most this", "0: never");
+  addReal(*c, "--time-limit", o->settings.timeLimit, 0, 1e9, "SECONDS", "start no further pass after this much rendering", "0: none");
+  addFile(*c, "--reference", o->reference, "FILE", "measure the true RMSE against this .exr after each pass, for --stats");
   addDeviceOptions(*c, o->settings);
-  c->add_option("--aov", o->aovTexts, "depth|normal|albedo|primitive of each pixel's first sample, .exr")->type_name("NAME=FILE")->allow_extra_args(false);
-  c->add_option("--stats", o->stats, "statistics as JSON")->type_name("FILE");
-  c->add_flag("--profile", o->profile, "print a table by stage");
-  c->add_option("--target-error", o->settings.targetError, "stop once the estimated RMSE, W/(m² sr), is below")->check(CLI::NonNegativeNumber);
-  c->add_option("--time-limit", o->settings.timeLimit, "start no further pass after this many seconds of rendering")->check(CLI::NonNegativeNumber);
-  c->add_option("--kernels", o->kernelFolder, "read kernels from this folder instead of the binary (for developers)")->type_name("FOLDER");
+  addFile(*c, "--kernels", o->kernelFolder, "FOLDER", "read kernels from here, not from the program (for developers)");
+  c->footer("Example: whittle render scene.glb -o picture.png -o picture.exr --stats stats.json");
   c->callback([o, &status] {
     runRender(*o);
     status = 0;

@@ -50,6 +50,18 @@ double estimateError(const FilmSums& sums, int samples) {
   return std::sqrt(total / static_cast<double>(pixels));
 }
 
+double rootMeanSquare(const FloatImage& picture, const FloatImage& reference) {
+  const std::size_t pixels = static_cast<std::size_t>(picture.width) * picture.height;
+  double sum = 0.0;
+  for (std::size_t p = 0; p < pixels; ++p)
+    for (int c = 0; c < 3; ++c) {
+      const double d = static_cast<double>(picture.pixels[p * picture.channels + c]) -
+                       static_cast<double>(reference.pixels[p * reference.channels + c]);
+      sum += d * d;
+    }
+  return std::sqrt(sum / (3.0 * static_cast<double>(pixels)));
+}
+
 std::map<std::string, FloatImage> splitAovs(int width, int height, const std::vector<float>& planes) {
   return {{"depth", gather(width, height, planes, AOV_DEPTH, 1)},
           {"primitive", gather(width, height, planes, AOV_PRIMITIVE, 1)},

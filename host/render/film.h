@@ -23,6 +23,9 @@ FloatImage resolveFilm(const FilmSums& sums, int samples);
 /// samples do better than it says.
 double estimateError(const FilmSums& sums, int samples);
 
+/// Root mean square difference over the colour channels of two pictures of one size, as `whittle compare` prints it.
+double rootMeanSquare(const FloatImage& picture, const FloatImage& reference);
+
 /// AOV_PLANES planes to named images.
 std::map<std::string, FloatImage> splitAovs(int width, int height, const std::vector<float>& planes);
 

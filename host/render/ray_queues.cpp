@@ -40,6 +40,12 @@ Buffer RayQueues::acquire() {
   return queue;
 }
 
+void RayQueues::reserve(std::size_t count) {
+  std::vector<Buffer> taken;
+  while (taken.size() < count) taken.push_back(acquire());
+  for (auto& queue : taken) release(std::move(queue));
+}
+
 std::vector<std::uint32_t> RayQueues::readSlots(const Buffer& queue, std::uint32_t begin, std::uint32_t count) const {
   std::vector<std::uint32_t> slots(count);
   const std::size_t offset = (static_cast<std::size_t>(RAY_SLOT) * capacity_ + begin) * sizeof(std::uint32_t);

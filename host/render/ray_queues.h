@@ -29,6 +29,8 @@ class RayQueues {
   /// A free ray queue; give it back with release. Queues are kept and reused.
   Buffer acquire();
   void release(Buffer queue) { free_.push_back(std::move(queue)); }
+  /// Makes sure that `count` ray queues are there.
+  void reserve(std::size_t count);
 
   /// Splits [0, count) of `queue` into segments that the next queue can hold, never inside a sample, unless the
   /// sample is longer than LONG_RUN: such a one is always sliced alike, whatever the capacity.

@@ -17,6 +17,7 @@
 #include "cl/program.h"
 #include "render/film.h"
 #include "render/pixel_order.h"
+#include "render/plan.h"
 #include "render/wavefront.h"
 #include "scene/input_error.h"
 
@@ -105,7 +106,7 @@ class Session {
     const bool cpu = compute_->device().kind == "cpu";
     features_ = SceneFeatures::analyse(scene_, settings_, {cpu});
     compactChunk_ = cpu ? 1024 : 32;
-    workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : (cpu ? 16 : 64);
+    workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : 64;
     if (static_cast<std::uint64_t>(workGroup_) > compute_->device().maxWorkGroup)
       throw InputError(fmt::format("--work-group: {} allows at most {}", compute_->device().name, compute_->device().maxWorkGroup));
   }
@@ -116,9 +117,22 @@ class Session {
     return finish();
   }
 
+  /// Allocates everything and launches nothing.
+  RenderPlan plan() {
+    allocate();
+    queues_->reserve(features_.has(Feature::IMPULSES) ? 2 : 1);
+    reportBuffers();
+    usedSettings();
+    return {features_, plannedStages(features_, scene_.lights.size(), settings_.bounces), stats_.buffers,
+            compute_->device(), stats_.settings};
+  }
+
  private:
   void say(const std::string& phase) const {
     if (hooks_.phase) hooks_.phase(phase);
+  }
+  void tracePhase(const char* name, Clock::time_point start, Trace::Track track = Trace::Track::Host) const {
+    if (hooks_.trace) hooks_.trace->phase(name, start, track);
   }
 
   void prepare() {
@@ -128,11 +142,22 @@ class Session {
       const std::string options = fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}", features_.bits(), compactChunk_);
       cl::Program built = compute_->build(assembleKernelSource(stageFiles(), hooks_.kernelFolder), options);
       stats_.time.compile = secondsSince(start);
+      tracePhase("compile kernels", start, Trace::Track::Compiler);
       return built;
     });
+    allocate();
+    stages_.emplace(*compute_, program.get(), workGroup_);
+    stages_->record(hooks_.trace);
+    const WavefrontSetup setup{features_, deviceScene_, cameraToDevice(scene_.cameras[cameraIndex_], settings_),
+                               constantsToDevice(scene_, settings_), static_cast<std::uint32_t>(settings_.bounces), compactChunk_};
+    wavefront_.emplace(*compute_, *stages_, *queues_, setup, pixelOrder_, film_, aovs_);
+  }
+
+  void allocate() {
     auto start = Clock::now();
     const TriTree tree = buildTree(scene_, features_.has(Feature::TREE));
     stats_.time.build = secondsSince(start);
+    tracePhase("build tree", start);
     start = Clock::now();
     deviceScene_ = uploadScene(*compute_, scene_, tree, features_);
     const auto pixels = static_cast<std::size_t>(settings_.width) * settings_.height;
@@ -142,17 +167,14 @@ class Session {
     if (features_.has(Feature::AOVS)) aovs_ = compute_->allocate("aovs", pixels * AOV_PLANES * sizeof(float));
     queues_.emplace(*compute_, features_, roundedCapacity(settings_), compactChunk_);
     stats_.time.upload = secondsSince(start);
-    stages_.emplace(*compute_, program.get(), workGroup_);
-    const WavefrontSetup setup{features_, deviceScene_, cameraToDevice(scene_.cameras[cameraIndex_], settings_),
-                               constantsToDevice(scene_, settings_), static_cast<std::uint32_t>(settings_.bounces), compactChunk_};
-    wavefront_.emplace(*compute_, *stages_, *queues_, setup, pixelOrder_, film_, aovs_);
+    tracePhase("upload", start);
   }
 
   /// All samples in one pass, or in doubling passes where a limit or an error target wants to look in between.
   void passes() {
     say("rendering");
     const auto start = Clock::now();
-    const bool looks = settings_.timeLimit > 0.0 || settings_.targetError > 0.0;
+    const bool looks = settings_.timeLimit > 0.0 || settings_.targetError > 0.0 || hooks_.reference;
     const int total = settings_.raysPerPixel;
     const std::uint64_t pixels = static_cast<std::uint64_t>(settings_.width) * settings_.height;
     while (samplesDone_ < total) {
@@ -164,14 +186,25 @@ class Session {
           hooks_.progress({before + done, pixels * static_cast<std::uint64_t>(total), secondsSince(start), t.primary + t.impulse + t.shadow});
       });
       samplesDone_ += pass;
-      if (!looks || samplesDone_ < 2) continue;
-      const double estimate = estimateError(readFilm(), samplesDone_);
-      stats_.error.push_back({secondsSince(start), samplesDone_, estimate});
+      if (!looks || (samplesDone_ < 2 && !hooks_.reference)) continue;
+      const double estimate = look(secondsSince(start));
       if (settings_.timeLimit > 0.0 && secondsSince(start) >= settings_.timeLimit) break;
-      if (settings_.targetError > 0.0 && estimate <= settings_.targetError) break;
+      if (settings_.targetError > 0.0 && samplesDone_ >= 2 && estimate <= settings_.targetError) break;
     }
     clTry("waiting for the last kernels", [&] { compute_->queue().finish(); });
     stats_.time.render = secondsSince(start);
+    tracePhase("render", start);
+  }
+
+  /// Notes how far the picture is after `seconds`; returns the estimate, 0 where one sample says nothing.
+  double look(double seconds) {
+    const auto start = Clock::now();
+    const FilmSums sums = readFilm();
+    ErrorPoint point{seconds, samplesDone_, samplesDone_ >= 2 ? estimateError(sums, samplesDone_) : 0.0, {}};
+    if (hooks_.reference) point.rmse = rootMeanSquare(resolveFilm(sums, samplesDone_), *hooks_.reference);
+    stats_.error.push_back(point);
+    tracePhase("estimate error", start);
+    return point.estimate;
   }
 
   FilmSums readFilm() {
@@ -186,7 +219,7 @@ class Session {
     const FilmSums sums = readFilm();
     result.radiance = resolveFilm(sums, samplesDone_);
     if (stats_.error.empty() && samplesDone_ >= 2)
-      stats_.error.push_back({stats_.time.render, samplesDone_, estimateError(sums, samplesDone_)});
+      stats_.error.push_back({stats_.time.render, samplesDone_, estimateError(sums, samplesDone_), {}});
     if (aovs_) {
       std::vector<float> planes(aovs_.bytes / sizeof(float));
       compute_->read(aovs_, 0, aovs_.bytes, planes.data());
@@ -204,10 +237,8 @@ class Session {
     stats_.scene.materials = scene_.materials.size();
     stats_.scene.lights = scene_.lights.size();
     stats_.scene.textures = scene_.images.size();
-    stats_.settings = settings_;
+    usedSettings();
     stats_.settings.raysPerPixel = samplesDone_;
-    stats_.settings.wavefront = static_cast<int>(queues_->capacity());
-    stats_.settings.workGroup = workGroup_;
     stats_.searchUsed = features_.has(Feature::TREE) ? "tree" : "array";
     const DeviceInfo& d = compute_->device();
     stats_.device = {d.platform, d.name, d.version, d.driver, d.computeUnits,
@@ -223,6 +254,16 @@ class Session {
     stats_.dropped = t.produced - t.finished;
     stats_.nonFinite = wavefront_->nonFinite();
     stats_.stages = stages_->stats();
+    reportBuffers();
+  }
+
+  void usedSettings() {
+    stats_.settings = settings_;
+    stats_.settings.wavefront = static_cast<int>(queues_->capacity());
+    stats_.settings.workGroup = workGroup_;
+  }
+
+  void reportBuffers() {
     deviceScene_.report(stats_.buffers);
     queues_->report(stats_.buffers);
     for (const Buffer* b : {&pixelOrder_, &film_, &aovs_})
@@ -263,6 +304,11 @@ std::size_t findCamera(const Scene& scene, const std::string& selector) {
 
 RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks) {
   return Session(scene, settings, hooks).run();
+}
+
+RenderPlan planRender(const Scene& scene, const Settings& settings) {
+  const RenderHooks none;
+  return Session(scene, settings, none).plan();
 }
 
 }  // namespace whittle

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "render/stats.h"
+#include "render/trace.h"
 #include "scene/image_io.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -31,6 +32,8 @@ struct RenderHooks {
   std::function<void(const RenderProgress&)> progress;       ///< now and then, may be empty
   std::function<void(const std::string&)> phase;             ///< "compiling kernels", … may be empty
   std::optional<std::filesystem::path> kernelFolder;         ///< kernels from here instead of the binary
+  const FloatImage* reference = nullptr;  ///< of the picture's size: each look at the film says how far it is from this
+  Trace* trace = nullptr;                 ///< records launches and phases; null: nothing is kept
 };
 
 /// Renders. The same scene and settings on the same device give the same bits, whatever the threads, work-group and

@@ -35,10 +35,11 @@ void StageRunner::setBuffer(cl::Kernel& kernel, const std::string& name, cl_uint
 
 void StageRunner::launch(const std::string& name, cl::Kernel& kernel, std::uint64_t workItems, std::uint64_t items) {
   const std::size_t global = (workItems + workGroup_ - 1) / workGroup_ * workGroup_;
-  Launch launch{stageIndex(name), {}};
+  Launch launch{stageIndex(name), {}, items, bounce_};
   clTry("launching kernel '" + name + "' on " + compute_.device().name, [&] {
     compute_.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(global), cl::NDRange(workGroup_), nullptr, &launch.event);
   });
+  if (trace_) launch.enqueued = steadySeconds(Trace::Clock::now());
   stages_[launch.stage].launches += 1;
   stages_[launch.stage].items += items;
   launches_.push_back(std::move(launch));
@@ -51,9 +52,21 @@ void StageRunner::collect() {
       const auto start = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
       const auto end = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
       if (end > start) stages_[launch.stage].seconds += static_cast<double>(end - start) * 1e-9;
+      if (trace_ && end > start) recordLaunch(launch, start, end);
     }
   });
   launches_.clear();
+}
+
+/// The device's clock is its own: the moment of queueing, which both clocks saw, ties them together.
+void StageRunner::recordLaunch(const Launch& launch, std::uint64_t start, std::uint64_t end) {
+  if (!hostMinusDevice_) {
+    const auto queued = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>();
+    hostMinusDevice_ = launch.enqueued - static_cast<double>(queued) * 1e-9;
+  }
+  trace_->launch({stages_[launch.stage].name, launch.bounce, launch.items,
+                  static_cast<double>(start) * 1e-9 + *hostMinusDevice_,
+                  static_cast<double>(end) * 1e-9 + *hostMinusDevice_});
 }
 
 std::vector<StageStats> StageRunner::stats() {

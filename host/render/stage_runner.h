@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -10,6 +11,7 @@
 #include "cl/program.h"
 #include "render/device_scene.h"
 #include "render/stats.h"
+#include "render/trace.h"
 
 namespace whittle {
 
@@ -29,6 +31,10 @@ class StageRunner {
     launch(kernel, k, workItems, items);
   }
 
+  /// Keeps every launch for `trace` (null: none, the usual case). Launches count as of `bounce` until it is set anew.
+  void record(Trace* trace) { trace_ = trace; }
+  void setBounce(std::uint32_t bounce) { bounce_ = bounce; }
+
   /// Adds the times of finished launches to the statistics; the queue must be idle.
   void collect();
   std::vector<StageStats> stats();
@@ -37,11 +43,15 @@ class StageRunner {
   struct Launch {
     std::size_t stage;
     cl::Event event;
+    std::uint64_t items = 0;
+    std::uint32_t bounce = 0;
+    double enqueued = 0.0;  ///< seconds of the steady clock, right after the launch; only when recording
   };
 
   cl::Kernel& find(const std::string& name);
   std::size_t stageIndex(const std::string& name);
   void launch(const std::string& name, cl::Kernel& kernel, std::uint64_t workItems, std::uint64_t items);
+  void recordLaunch(const Launch& launch, std::uint64_t start, std::uint64_t end);
   void setBytes(cl::Kernel& kernel, const std::string& name, cl_uint index, std::size_t bytes, const void* value);
   void setBuffer(cl::Kernel& kernel, const std::string& name, cl_uint index, const Buffer& buffer);
 
@@ -62,6 +72,9 @@ class StageRunner {
   std::unordered_map<std::string, cl::Kernel> kernels_;
   std::vector<StageStats> stages_;
   std::vector<Launch> launches_;
+  Trace* trace_ = nullptr;
+  std::uint32_t bounce_ = 0;
+  std::optional<double> hostMinusDevice_;  ///< seconds to add to the device's clock; found at the first launch recorded
 };
 
 }  // namespace whittle

@@ -78,7 +78,9 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
   json["memory"] = memoryToJson(s.buffers);
   json["error"] = nlohmann::ordered_json::array();
   for (const auto& e : s.error)
-    json["error"].push_back({{"seconds", e.seconds}, {"raysPerPixel", e.raysPerPixel}, {"estimate", e.estimate}, {"rmse", nullptr}});
+    json["error"].push_back({{"seconds", e.seconds}, {"raysPerPixel", e.raysPerPixel},
+                             {"estimate", e.raysPerPixel >= 2 ? nlohmann::ordered_json(e.estimate) : nlohmann::ordered_json(nullptr)},
+                             {"rmse", e.rmse ? nlohmann::ordered_json(*e.rmse) : nlohmann::ordered_json(nullptr)}});
   json["biasBound"] = nullptr;
   json["nonFinite"] = s.nonFinite;
   json["dropped"] = s.dropped;

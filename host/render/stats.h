@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct ErrorPoint {
   double seconds = 0.0;
   int raysPerPixel = 0;
   double estimate = 0.0;  ///< standard error of the picture: RMS over pixels of the luminance mean's, W/(m² sr)
+  std::optional<double> rmse;  ///< against RenderHooks::reference, all colour channels, W/(m² sr)
 };
 
 struct Stats {

@@ -34,13 +34,16 @@ void Wavefront::trace(std::uint32_t firstSample, std::uint32_t samples, const st
 void Wavefront::traceBatch(const device::Batch& batch) {
   const std::uint32_t count = batch.pixels * batch.samples;
   Buffer queue = queues_.acquire();
+  stages_.setBounce(0);
   raygen(queue, count);
   traceQueue(std::move(queue), count, 1);
+  stages_.setBounce(0);
   film();
   stages_.collect();
 }
 
 void Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t bounce) {
+  stages_.setBounce(bounce);
   const auto segments = queues_.cut(queue, count, hasLongRuns(queue, count, bounce));
   for (const Segment& segment : segments) {
     Buffer next;
@@ -55,6 +58,7 @@ void Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t boun
 }
 
 std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std::uint32_t bounce, Buffer& next) {
+  stages_.setBounce(bounce);
   intersect(queue, segment);
   shade(queue, segment, bounce);
   occlude(compactShadow(segment));

@@ -67,11 +67,11 @@ class PrimitiveReader {
       document_.fail(
           fmt::format("{}: POSITION is not made of three-component vectors of a legal type", label_));
     }
+    count_ = a.count;
+    std::vector<float> values = readFloats(document_, accessor);
     if (a.count >= std::numeric_limits<std::uint32_t>::max()) {
       document_.fail(fmt::format("{}: more vertices than 32-bit indices can name", label_));
     }
-    count_ = a.count;
-    std::vector<float> values = readFloats(document_, accessor);
     morph("POSITION", 3, values);
     copyTo(mesh.positions, values);
   }

@@ -10,8 +10,8 @@ void buildCornellBox(GltfBuilder& scene) {
   const int red = scene.addMaterial(matte("red", {0.62, 0.06, 0.05}));
   const int green = scene.addMaterial(matte("green", {0.13, 0.46, 0.1}));
   addRoom(scene, {-1.6, 0, -1.4}, {1.6, 2, 2.6}, {red, green, white, white, white, white});
-  addCeilingLamp(scene, {0, 1.995, -0.1}, 0.8, 0.6, 4, 4.2);
-  scene.addLight({.name = "fill", .intensity = 0.9, .position = {0, 1.2, 2.3}, .castsShadows = false});
+  addCeilingLamp(scene, {0, 1.995, -0.1}, 0.8, 0.6, 4, 5.6);
+  scene.addLight({.name = "fill", .intensity = 1.5, .position = {0, 1.2, 2.3}, .castsShadows = false});
 
   Mesh block;
   addBox(block, {-0.3, 0, -0.3}, {0.3, 1.2, 0.3});
@@ -21,8 +21,8 @@ void buildCornellBox(GltfBuilder& scene) {
   const int silver = scene.addMaterial(mirror("silver", glm::dvec3(0.93)));
   scene.place("mirror ball", sphere, silver, {.position = {0.6, 0.5, -0.55}, .scale = 0.5});
   scene.place("glass ball", sphere, scene.addMaterial(glass("glass", 1.5)),
-              {.position = {-0.05, 0.3, 0.35}, .scale = 0.3});
-  scene.addCamera("camera", {0, 1.0, 2.5}, {0, 0.96, -1}, 42);
+              {.position = {-0.1, 0.32, 0.1}, .scale = 0.32});
+  scene.addCamera("camera", {0, 1.08, 2.5}, {0, 0.88, -1}, 45);
 }
 
 }  // namespace generator

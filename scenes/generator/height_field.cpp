@@ -10,7 +10,7 @@ namespace generator {
 namespace {
 
 constexpr double kSide = 16;     // metres, centred on the origin
-constexpr double kHeight = 2.2;  // metres between about the lowest and the highest point
+constexpr double kHeight = 3.2;  // metres between about the lowest and the highest point
 constexpr int kOctaves = 9;      // the last one is about as fine as 1024 squares resolve
 
 std::uint32_t mix(std::uint32_t v) {
@@ -99,8 +99,8 @@ void buildHeightField(GltfBuilder& scene, int n) {
   scene.addLight({.name = "sun",
                   .type = "directional",
                   .color = {1, 0.93, 0.8},
-                  .intensity = 3,
-                  .position = {-6, 4.5, -2},
+                  .intensity = 3.6,
+                  .position = {-6, 3.2, -1.5},
                   .target = {0, 0, 0}});
   scene.addLight({.name = "sky",
                   .type = "directional",

@@ -93,6 +93,24 @@ Mesh makeCylinder(double radius, double height, int segments) {
   return mesh;
 }
 
+Mesh makeTorus(double radius, double tubeRadius, int segments, int tubeSegments) {
+  Mesh mesh;
+  for (int i = 0; i <= segments; ++i) {
+    const glm::dvec2 around = onCircle(i, segments);
+    for (int k = 0; k <= tubeSegments; ++k) {
+      const glm::dvec2 tube = onCircle(k, tubeSegments);
+      const glm::dvec3 outward(around, 0), n = tube.x * outward + glm::dvec3(0, 0, tube.y);
+      mesh.normals.emplace_back(n);
+      mesh.positions.emplace_back(radius * outward + tubeRadius * n);
+    }
+  }
+  const auto stride = static_cast<std::uint32_t>(tubeSegments) + 1;
+  for (std::uint32_t a = 0; a + stride + 1 < mesh.positions.size(); ++a) {
+    if ((a + 1) % stride != 0) addTriangles(mesh, a, a + stride, a + stride + 1, a + 1);
+  }
+  return mesh;
+}
+
 Mesh makeCheckers(int rows, int columns, double side, int parity) {
   Mesh mesh;
   for (int row = 0; row < rows; ++row) {

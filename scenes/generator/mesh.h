@@ -36,6 +36,9 @@ Mesh makeUnitSphere();
 /// A tube around +Y from y = 0 to `height`, open at both ends, smooth normals outwards.
 Mesh makeCylinder(double radius, double height, int segments);
 
+/// A ring around the Z axis, smooth normals.
+Mesh makeTorus(double radius, double tubeRadius, int segments, int tubeSegments);
+
 /// Rows × columns squares in the plane y = 0 about the origin with their front up, every second one: the
 /// other half belongs to a call with the other `parity`.
 Mesh makeCheckers(int rows, int columns, double side, int parity);

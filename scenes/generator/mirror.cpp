@@ -34,6 +34,7 @@ void buildMirror(GltfBuilder& scene) {
   scene.place("mirror ball", sphere, silver, {.position = {2.1, 0.75, 0.1}, .scale = 0.75});
   scene.addLight({.name = "key", .intensity = 48, .position = {-2.5, 4.5, 3.5}});
   scene.addLight({.name = "fill", .intensity = 8, .position = {3, 3, 4}, .castsShadows = false});
+  scene.addLight({.name = "fill behind", .intensity = 4, .position = {0, 3, -4}, .castsShadows = false});
   scene.setBackground({0.32, 0.45, 0.65});
   scene.addCamera("camera", {0.4, 1.7, 5.4}, {0.1, 0.85, -0.5}, 38);
 }

@@ -14,8 +14,9 @@ void buildMirrorBox(GltfBuilder& scene) {
   Mesh glassPane;
   addQuad(glassPane, {-1.35, 0.2, -1.38}, {2.7, 0, 0.03}, {0, 1.6, 0.04});
   scene.add("mirror", std::move(glassPane), silver);
-  addCeilingLamp(scene, {0, 1.995, 0.2}, 0.8, 0.6, 4, 4.2);
-  scene.addLight({.name = "fill", .intensity = 0.9, .position = {0, 1.2, 2.3}, .castsShadows = false});
+  addCeilingLamp(scene, {0, 1.995, 0.2}, 0.8, 0.6, 4, 5.6);
+  scene.addLight({.name = "fill", .intensity = 1.2, .position = {0, 1.2, 2.3}, .castsShadows = false});
+  scene.addLight({.name = "fill behind", .intensity = 0.35, .position = {0, 1, -1.2}, .castsShadows = false});
 
   const int sphere = scene.addGeometry(makeUnitSphere());
   const int blue = scene.addMaterial(matte("blue", {0.08, 0.2, 0.62}));

@@ -62,9 +62,9 @@ void buildRefraction(GltfBuilder& scene) {
               {.position = {0.3, 0, 0.1}, .turnY = -35});
   MaterialSpec green = glass("green glass", 1.5);
   green.attenuationColor = {0.25, 0.75, 0.4};
-  green.attenuationDistance = 0.3;
+  green.attenuationDistance = 0.5;
   scene.place("wedge", scene.addGeometry(makeWedge(1.1, 1.1, 0.7)), scene.addMaterial(green),
-              {.position = {1.35, 0.02, 0.55}, .turnY = 12});
+              {.position = {1.35, 0.02, 0.55}, .turnY = -20});
   scene.addLight({.name = "key", .intensity = 60, .position = {-3, 5, 4}});
   scene.addLight({.name = "fill", .intensity = 14, .position = {3, 3, 5}, .castsShadows = false});
   scene.setBackground({0.5, 0.6, 0.75});

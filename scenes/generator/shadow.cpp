@@ -15,15 +15,15 @@ void buildShadow(GltfBuilder& scene) {
   scene.add("floor and wall", std::move(planes), white);
   const int sphere = scene.addGeometry(makeUnitSphere());
   scene.place("ball", sphere, white, {.position = {0, 0.9, 0}, .scale = 0.9});
-  scene.place("ball behind the lights", sphere, white, {.position = {0, 5.6, 4.6}, .scale = 0.6});
+  scene.place("ball behind the lights", sphere, white, {.position = {0, 5.8, 6.6}, .scale = 0.6});
   const std::array<glm::dvec3, 3> colors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const std::array<const char*, 3> names{"red", "green", "blue"};
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     scene.addLight(
-        {.name = names[k], .color = colors[k], .intensity = 70, .position = {(i - 1) * 2.2, 4.2, 3.4}});
+        {.name = names[k], .color = colors[k], .intensity = 130, .position = {(i - 1) * 2.0, 4.6, 5.2}});
   }
-  scene.addCamera("camera", {0, 2.6, 7}, {0, 1.2, -0.6}, 40);
+  scene.addCamera("camera", {0, 3.0, 7}, {0, 0.95, -0.8}, 38);
 }
 
 }  // namespace generator

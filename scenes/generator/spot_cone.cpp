@@ -23,7 +23,7 @@ void buildSpotCone(GltfBuilder& scene) {
   scene.addLight({.name = "soft spot",
                   .type = "spot",
                   .color = {1, 0.95, 0.85},
-                  .intensity = 42,
+                  .intensity = 60,
                   .position = {1.6, 4.6, 2.4},
                   .target = {0, 0.5, 0},
                   .innerCone = 8 * degree,
@@ -31,7 +31,7 @@ void buildSpotCone(GltfBuilder& scene) {
   scene.addLight({.name = "hard red spot",
                   .type = "spot",
                   .color = {1, 0.25, 0.2},
-                  .intensity = 30,
+                  .intensity = 48,
                   .position = {-2.3, 2.2, 2.2},
                   .target = {-2.5, 2.1, -2},
                   .innerCone = 12 * degree,
@@ -39,13 +39,13 @@ void buildSpotCone(GltfBuilder& scene) {
   scene.addLight({.name = "hard blue spot",
                   .type = "spot",
                   .color = {0.25, 0.45, 1},
-                  .intensity = 30,
+                  .intensity = 48,
                   .position = {2.3, 2.2, 2.2},
                   .target = {2.5, 2.1, -2},
                   .innerCone = 12 * degree,
                   .outerCone = 12 * degree});
-  scene.addLight({.name = "fill", .intensity = 0.7, .position = {0, 3, 5}, .castsShadows = false});
-  scene.addCamera("camera", {0, 1.9, 6.2}, {0, 1.5, 0}, 40);
+  scene.addLight({.name = "fill", .intensity = 4, .position = {0, 3, 5}, .castsShadows = false});
+  scene.addCamera("camera", {0, 1.9, 6.0}, {0, 1.45, 0}, 37);
 }
 
 }  // namespace generator

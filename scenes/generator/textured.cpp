@@ -121,8 +121,8 @@ void buildTextured(GltfBuilder& scene) {
   addLeaves(scene);
   addPanes(scene);
   addRainbowBall(scene);
-  scene.addLight({.name = "key", .intensity = 38, .position = {-2.2, 3.6, 3}});
-  scene.addLight({.name = "fill", .intensity = 9, .position = {2, 2, 5}, .castsShadows = false});
+  scene.addLight({.name = "key", .intensity = 52, .position = {-2.2, 3.6, 3}});
+  scene.addLight({.name = "fill", .intensity = 16, .position = {2, 2, 5}, .castsShadows = false});
   scene.setBackground({0.4, 0.5, 0.65});
   scene.addCamera("camera", {0, 1.35, 5}, {0, 0.95, 0}, 32);
 }

@@ -89,6 +89,17 @@ class SweepTwin {
   std::vector<Box> boxes_;
 };
 
+/// Detail of very different sizes: where to cut matters here, as it does not in an even soup.
+TriangleMesh ballsOnGround() {
+  Rng rng(33);
+  TriangleMesh mesh = heightField(20, 34);
+  for (int i = 0; i < 30; ++i) {
+    const float radius = std::exp(rng.between(-7, -2));
+    mesh.append(closedSphere(rng.inBox(1), radius, 16, 24));
+  }
+  return mesh;
+}
+
 TEST(TriTreeSah, CloseToAFullSweep) {
   const struct {
     const char* name;
@@ -96,7 +107,8 @@ TEST(TriTreeSah, CloseToAFullSweep) {
   } scenes[] = {{"height field", heightField(100, 30)},
                 {"soup", randomSoup(20000, 0.05F, 31)},
                 {"long thin", longThinTriangles(20000, 0.3F, 32)},
-                {"sphere", closedSphere({0, 0, 0}, 1, 80, 120)}};
+                {"sphere", closedSphere({0, 0, 0}, 1, 80, 120)},
+                {"balls on ground", ballsOnGround()}};
   for (const auto& scene : scenes) {
     for (const int maxLeaf : {4, 8}) {
       const double twin = SweepTwin(scene.mesh, static_cast<std::size_t>(maxLeaf)).cost();

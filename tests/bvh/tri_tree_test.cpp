@@ -98,30 +98,50 @@ TEST(TriTree, IdenticalTriangles) {
   }
 }
 
-/// Triangle i is `ratio` times the size of triangle i - 1, down to `smallest`, then again; all share a
-/// corner.
-TriangleMesh nestedTriangles(std::size_t n, float ratio, float smallest, bool concentric) {
+/// Triangle i is half as large as triangle i - 1, from `largest` down to 1e-35 metres and then again; all
+/// share a corner.
+TriangleMesh nestedAtCorner(std::size_t n, float largest) {
   TriangleMesh mesh;
-  float s = 1;
+  float s = largest;
   for (std::size_t i = 0; i < n; ++i) {
-    if (concentric)
-      mesh.add({-s, -s, -s}, {s, s, -s}, {-s, s, s});
-    else
-      mesh.add({0, 0, 0}, {s, 0, 0}, {0, s, s});
-    s = s * ratio < smallest ? 1 : s * ratio;
+    mesh.add({0, 0, 0}, {s, 0, 0}, {0, s, s});
+    s = s < 2e-35F ? largest : s / 2;
   }
   return mesh;
 }
 
-TEST(TriTree, NestedTriangles) {
-  for (const bool concentric : {false, true}) {
-    for (const std::size_t n : {100U, 5000U, 100000U}) {
-      for (const float ratio : {0.5F, 0.9F, 0.01F}) {
-        const TriangleMesh mesh = nestedTriangles(n, ratio, 1e-30F, concentric);
-        EXPECT_EQ(checkTree(build(mesh), mesh), "") << n << " · " << ratio;
-        EXPECT_EQ(checkTree(build(mesh, {1, 16, 1.0F}), mesh, 1), "") << n << " · " << ratio;
+TEST(TriTree, DepthIsBoundedForNestedTriangles) {
+  // Two bins can only take the largest size away from the 170 sizes: without the fallback to medians the
+  // depth is at least that.
+  for (const std::size_t n : {170U, 5000U, 100000U}) {
+    const TriangleMesh mesh = nestedAtCorner(n, 1e16F);
+    for (const int maxLeaf : {1, 4, 16}) {
+      for (const int bins : {2, 16}) {
+        const TriTree tree = build(mesh, {maxLeaf, bins, 1.0F});
+        EXPECT_EQ(checkTree(tree, mesh, maxLeaf), "") << n << ", " << maxLeaf << ", " << bins;
       }
     }
+  }
+}
+
+TEST(TriTree, ConcentricTrianglesAreSplitBySize) {
+  // No centroid tells them apart. 128 sizes, halved five times: each leaf of four has consecutive sizes.
+  TriangleMesh mesh;
+  for (int i = 0; i < 128; ++i) {
+    const float s = std::ldexp(1.0F, -(i * 37 % 128) / 2) * (i * 37 % 2 ? 0.75F : 1.0F);
+    mesh.add({-s, -s, -s}, {s, s, -s}, {-s, s, s});
+  }
+  const TriTree tree = build(mesh);
+  EXPECT_EQ(checkTree(tree, mesh), "");
+  EXPECT_EQ(tree.depth, 5);
+  for (std::size_t leaf = 0; leaf < 32; ++leaf) {
+    float smallest = 1, largest = 0;
+    for (std::size_t i = 4 * leaf; i < 4 * leaf + 4; ++i) {
+      const float s = mesh.positions[mesh.triangles[tree.order[i]].y].x;
+      smallest = std::min(smallest, s);
+      largest = std::max(largest, s);
+    }
+    EXPECT_EQ(largest / smallest, 1 / 0.375F) << leaf;  // 1, 3/4, 1/2, 3/8
   }
 }
 

@@ -152,6 +152,15 @@ TEST(Surface, InterpolatedNormalsTiltTheCosine) {
   EXPECT_NEAR(probe.surfelAlong({Vec3(0, 1.5, 0), Vec3(0, -1, 0)})->facing.y, 1, 1e-15);
 }
 
+TEST(Surface, LightFromBehindTheTriangleDoesNotCount) {
+  Scene scene = overGreen({}, lambert(glm::vec3(1)));
+  scene.normals.assign(scene.positions.size(), glm::vec3(0.6F, 0.8F, 0));
+  scene.lights = {pointLight({2, 0.9F, 0}, 1)};  // below y = 1, yet on the side of the shading normal
+  Probe probe(scene);
+  probe.settings().shadows = false;
+  EXPECT_EQ(down(probe, 0, 0), Vec3(0));
+}
+
 TEST(Surface, ANormalSeenFromBehindGivesWay) {
   Scene scene = overGreen({}, lambert(glm::vec3(1)));
   scene.normals.assign(scene.positions.size(), glm::vec3(1, 0, 0));

@@ -74,6 +74,17 @@ inline Light pointLight(const glm::vec3& position, float intensity) {
   return light;
 }
 
+/// Looks straight down from y = 1, 2 m of height, −z at the top of the picture.
+inline Camera lookingDown(const std::string& name = "down") {
+  Camera camera;
+  camera.name = name;
+  camera.orthographic = true;
+  camera.position = {0, 1, 0};
+  camera.forward = {0, -1, 0};
+  camera.up = {0, 0, -1};
+  return camera;
+}
+
 /// An offset that is far below every tolerance, where an expected value knows of none.
 inline Settings exactSettings() {
   Settings settings;

@@ -1,15 +1,13 @@
-// Whole pictures: cameras, counts of rays, threads, the choice of one impulse.
+// Whole pictures: counts of rays, threads, the choice of one impulse.
 #include "reference/reference.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "reference/camera.h"
 #include "reference/probe.h"
-#include "scene/input_error.h"
+#include "reference/sampler.h"
 
 namespace whittle::test {
 namespace {
@@ -20,70 +18,6 @@ Settings small(int width, int height, int bounces) {
   settings.height = height;
   settings.bounces = bounces;
   return settings;
-}
-
-/// Looks straight down from y = 1, 2 m of height, −z at the top of the picture.
-Camera lookingDown(const std::string& name = "down") {
-  Camera camera;
-  camera.name = name;
-  camera.orthographic = true;
-  camera.position = {0, 1, 0};
-  camera.forward = {0, -1, 0};
-  camera.up = {0, 0, -1};
-  return camera;
-}
-
-TEST(Camera, PerspectiveRays) {
-  Camera camera;
-  camera.position = {1, 2, 3};
-  camera.yfov = static_cast<float>(std::numbers::pi / 2);  // tan(45°) = 1
-  const Ray centre = reference::eyeRay(camera, {200, 100}, 400, 200);
-  EXPECT_EQ(centre.origin, Vec3(1, 2, 3));
-  EXPECT_NEAR(glm::length(centre.direction - Vec3(0, 0, -1)), 0, 1e-15);
-  const Ray corner = reference::eyeRay(camera, {0, 0}, 400, 200);  // upper left
-  EXPECT_NEAR(glm::length(corner.direction - glm::normalize(Vec3(-2, 1, -1))), 0, 1e-7) << "π is rounded";
-}
-
-TEST(Camera, ExtremeFieldsOfViewAreFinite) {
-  Camera camera;
-  for (const double degrees : {1e-3, 179.9}) {
-    const double half = degrees / 2 * std::numbers::pi / 180;
-    camera.yfov = static_cast<float>(2 * half);
-    const Ray top = reference::eyeRay(camera, {50, 0}, 100, 100);
-    EXPECT_NEAR(glm::length(top.direction), 1, 1e-15);
-    EXPECT_NEAR(std::atan2(top.direction.y, -top.direction.z) / half, 1, 1e-7) << "the angle is a float";
-  }
-}
-
-TEST(Camera, OrthographicRays) {
-  Camera camera = lookingDown();
-  camera.ymag = 3;
-  const Ray corner = reference::eyeRay(camera, {40, 20}, 40, 20);  // lower right
-  EXPECT_NEAR(glm::length(corner.origin - Vec3(6, 1, 3)), 0, 1e-14);
-  EXPECT_EQ(corner.direction, Vec3(0, -1, 0));
-}
-
-TEST(Camera, IsFoundByNameOrIndex) {
-  Scene scene;
-  scene.file = "room.glb";
-  scene.cameras = {lookingDown("left"), lookingDown("right"), lookingDown("0")};
-  EXPECT_EQ(&reference::findCamera(scene, "right"), &scene.cameras[1]);
-  EXPECT_EQ(&reference::findCamera(scene, "1"), &scene.cameras[1]);
-  EXPECT_EQ(&reference::findCamera(scene, "0"), &scene.cameras[2]) << "a name goes before an index";
-  for (const std::string bad : {"top", "3", "-1", "1x", ""}) {
-    Settings settings = small(1, 1, 1);
-    settings.camera = bad;
-    try {
-      renderReference(scene, settings);
-      FAIL() << bad;
-    } catch (const InputError& error) {
-      const std::string text = error.what();
-      for (const char* part : {"room.glb", "0 \"left\"", "1 \"right\"", "2 \"0\""}) {
-        EXPECT_NE(text.find(part), std::string::npos) << text;
-      }
-      EXPECT_EQ(text.find('\n'), std::string::npos);
-    }
-  }
 }
 
 /// A mirror on the ground under the camera, a white ceiling above it, two lights of which one casts shadows.
@@ -148,6 +82,21 @@ TEST(Picture, PrimitiveAndDepthBelongToTheFirstSample) {
   EXPECT_EQ(many.primitive.channels, 1);
   EXPECT_EQ(many.depth.width, 4);
   EXPECT_EQ(many.radiance.pixels.size(), 4U * 4 * 3);
+}
+
+TEST(Picture, PrimitiveIsThatOfTheFirstSampleAmongMany) {
+  Scene scene;  // the left half of the one pixel
+  addQuad(scene, addMaterial(scene, lambert(glm::vec3(1))), {-2, 0, -2}, {0, 0, 4}, {2, 0, 0});
+  scene.cameras = {lookingDown()};
+  Settings settings = small(1, 1, 1);
+  settings.raysPerPixel = 8;
+  int left = 0;
+  for (settings.seed = 0; settings.seed < 40; ++settings.seed) {
+    const bool first = reference::samplePosition(settings.sampler, 0, 0, 8, settings.seed).x < 0.5;
+    EXPECT_EQ(renderReference(scene, settings).primitive.pixels[0] >= 0, first) << settings.seed;
+    left += first;
+  }
+  EXPECT_TRUE(left > 5 && left < 35) << "both halves should have been first";
 }
 
 TEST(Picture, RowZeroIsAtTheTop) {

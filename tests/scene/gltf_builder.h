@@ -102,9 +102,13 @@ class GltfBuilder {
   }
 
   std::string glb() const {
-    Json complete = json;
-    if (!binary.empty()) complete["buffers"] = Json::array({{{"byteLength", binary.size()}}});
-    std::string text = complete.dump();
+    GltfBuilder complete = *this;
+    if (!binary.empty()) complete.json["buffers"] = Json::array({{{"byteLength", binary.size()}}});
+    return complete.glbAsIs();
+  }
+  /// The same with whatever `json` says of its buffers.
+  std::string glbAsIs() const {
+    std::string text = json.dump();
     while (text.size() % 4 != 0) text += ' ';
     std::string data = binary;
     while (data.size() % 4 != 0) data += '\0';

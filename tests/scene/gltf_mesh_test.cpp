@@ -143,7 +143,7 @@ TEST(GltfMesh, QuantisedPositionsAndNormals) {
   expectNear(scene.positions[1], {500, 0, 0}, 0);
   expectNear(scene.positions[2], {0, 250, 32767.5F}, 0);
   expectNear(scene.normals[0], {1, 0, 0}, 0);
-  expectNear(scene.normals[1], {-1, 0, 0}, 0) << "-128 means -1 too";
+  expectNear(scene.normals[1], {-1, 0, 0}, 0);  // -128 means -1 too
   expectNear(scene.normals[2], {0, 0, -1}, 0);
 }
 
@@ -190,7 +190,7 @@ TEST(GltfMesh, MissingNormalsAreZeroBesideOthers) {
   const Scene scene = b.load();
   ASSERT_EQ(scene.normals.size(), 6U);
   EXPECT_EQ(scene.normals[0], glm::vec3(0));
-  expectNear(scene.normals[3], {0, 0, 1}, 0) << "normalised";
+  expectNear(scene.normals[3], {0, 0, 1}, 0);  // normalised
   EXPECT_EQ(scene.normals[4], glm::vec3(0)) << "zero length means none";
 }
 
@@ -208,8 +208,8 @@ TEST(GltfMesh, MorphTargetsWithDefaultWeights) {
   b.node({{"mesh", mesh}, {"weights", {0.0, 0.25}}});
   const Scene scene = b.load();
   ASSERT_EQ(scene.triangles.size(), 2U);
-  expectNear(corner(scene, 0, 1), {1, 0, 1}, 0) << "the mesh's weights";
-  expectNear(corner(scene, 1, 1), {2, 0, 0}, 0) << "the node's weights";
+  expectNear(corner(scene, 0, 1), {1, 0, 1}, 0);  // the mesh's weights
+  expectNear(corner(scene, 1, 1), {2, 0, 0}, 0);  // the node's weights
 }
 
 TEST(GltfMesh, UnusableTrianglesAreDroppedWithOneWarning) {

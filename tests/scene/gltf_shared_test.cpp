@@ -119,5 +119,53 @@ TEST(SharedScenes, BrokenFilesEndInASceneOrInOneLine) {
   EXPECT_GE(loaded, 100U) << "most of these files are merely odd";
 }
 
+/// The same file without its tangents, its URIs made absolute, as a new file in `folder`.
+fs::path withoutTangents(const fs::path& file, const test::TemporaryFolder& folder) {
+  std::ifstream stream(file);
+  test::Json json = test::Json::parse(stream);
+  for (auto& mesh : json["meshes"]) {
+    for (auto& primitive : mesh["primitives"]) primitive["attributes"].erase("TANGENT");
+  }
+  for (const char* array : {"buffers", "images"}) {
+    for (auto& entry : json[array]) {
+      entry["uri"] = (fs::absolute(file).parent_path() / entry["uri"].get<std::string>()).string();
+    }
+  }
+  return folder.write("without_tangents.gltf", json.dump());
+}
+
+/// What an exporter wrote with MikkTSpace is what generated tangents must come close to, handedness included.
+TEST(SharedScenes, GeneratedTangentsAgreeWithTheExporters) {
+  const fs::path root = fs::path(WHITTLE_SHARED) / "gltf";
+  if (!fs::exists(root)) GTEST_SKIP() << "no shared scenes at " << root;
+  for (const char* name : {"FlightHelmet/glTF-bevy-downscaled/FlightHelmet.gltf",
+                           "LightsPunctualLamp/glTF/LightsPunctualLamp.gltf"}) {
+    SCOPED_TRACE(name);
+    const test::TemporaryFolder folder;
+    Notices notices;
+    const Scene given = loadGltf(root / name, {}, notices);
+    const Scene generated = loadGltf(withoutTangents(root / name, folder), {}, notices);
+    ASSERT_EQ(given.triangles.size(), generated.triangles.size());
+    std::size_t corners = 0, near = 0, sameHand = 0;
+    for (std::size_t i = 0; i < given.triangles.size(); ++i) {
+      const Triangle& a = given.triangles[i];
+      const Triangle& b = generated.triangles[i];
+      if (!given.materials[a.material].normalTexture.used()) continue;
+      for (const auto& [v, w] : {std::pair(a.v0, b.v0), std::pair(a.v1, b.v1), std::pair(a.v2, b.v2)}) {
+        const glm::vec4 t = given.tangents[v], u = generated.tangents[w];
+        ++corners;
+        near += glm::dot(glm::vec3(t), glm::vec3(u)) > 0.95F;
+        sameHand += t.w == u.w;
+      }
+    }
+    std::cout << name << ": " << corners << " corners, within 18 degrees " << near << ", same hand "
+              << sameHand << '\n';
+    ASSERT_GT(corners, 1000U);
+    // Not all: exporters weigh and split vertices at texture seams in their own ways.
+    EXPECT_GT(near, corners * 9 / 10);
+    EXPECT_GT(sameHand, corners * 97 / 100);
+  }
+}
+
 }  // namespace
 }  // namespace whittle

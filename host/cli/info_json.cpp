@@ -1,0 +1,84 @@
+// `whittle info --json`: the same facts as the text, none abridged.
+#include <cmath>
+
+#include "cli/info_report.h"
+
+namespace whittle::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json toJson(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+/// JSON has no infinity: null for "no limit".
+Json finiteOrNull(float value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json camerasJson(const Scene& scene) {
+  Json cameras = Json::array();
+  for (const auto& c : scene.cameras) {
+    cameras.push_back({{"name", c.name},
+                       {"orthographic", c.orthographic},
+                       {"position", toJson(c.position)},
+                       {"forward", toJson(c.forward)},
+                       {"up", toJson(c.up)}});
+    cameras.back()[c.orthographic ? "ymag" : "yfov"] = c.orthographic ? c.ymag : c.yfov;
+  }
+  return cameras;
+}
+
+Json lightsJson(const Scene& scene) {
+  Json lights = Json::array();
+  for (const auto& l : scene.lights) {
+    lights.push_back({{"name", l.name},
+                      {"kind", l.kind == LightKind::Point ? "point" : (l.kind == LightKind::Spot ? "spot" : "directional")},
+                      {"castsShadows", l.castsShadows},
+                      {"intensity", toJson(l.intensity)}});
+    Json& light = lights.back();
+    if (l.kind != LightKind::Directional) light["position"] = toJson(l.position), light["range"] = finiteOrNull(l.range);
+    if (l.kind != LightKind::Point) light["direction"] = toJson(l.direction);
+    if (l.kind == LightKind::Spot) light["innerConeAngle"] = l.innerConeAngle, light["outerConeAngle"] = l.outerConeAngle;
+  }
+  return lights;
+}
+
+Json featuresJson(const SceneFeatures& features) {
+  Json json{{"used", Json::array()}, {"leftOut", Json::array()}};
+  for (const auto& line : features.lines()) {
+    if (line.used)
+      json["used"].push_back(line.text);
+    else
+      json["leftOut"].push_back({{"name", line.text}, {"reason", line.reason}});
+  }
+  return json;
+}
+
+Json buffersJson(const RenderPlan& plan) {
+  Json buffers = Json::array();
+  for (const auto& b : plan.buffers) buffers.push_back({{"name", b.name}, {"group", b.group}, {"bytes", b.bytes}});
+  return buffers;
+}
+
+}  // namespace
+
+Json infoJson(const InfoReport& r) {
+  const Scene& scene = r.scene;
+  const auto& b = scene.background;
+  Json json{{"file", scene.file},
+            {"triangles", scene.triangles.size()},
+            {"droppedTriangles", scene.droppedTriangles},
+            {"vertices", scene.positions.size()},
+            {"materials", scene.materials.size()},
+            {"textures", scene.images.size()},
+            {"lights", lightsJson(scene)},
+            {"cameras", camerasJson(scene)},
+            {"background", {{"radiance", toJson(b.radiance)}, {"mapWidth", b.width}, {"mapHeight", b.height}}},
+            {"features", featuresJson(r.features)},
+            {"stages", r.stages}};
+  json["device"] = r.plan ? Json(r.plan->device.name) : Json(nullptr);
+  json["deviceProblem"] = r.plan ? Json(nullptr) : Json(r.planProblem);
+  json["buffers"] = r.plan ? buffersJson(*r.plan) : Json(nullptr);
+  json["warnings"] = r.notices.warnings;
+  json["notes"] = r.notices.notes;
+  return json;
+}
+
+}  // namespace whittle::cli

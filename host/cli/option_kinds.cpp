@@ -1,0 +1,48 @@
+// Options that check themselves.
+#include "cli/option_kinds.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+namespace whittle::cli {
+namespace {
+
+template <typename T>
+bool parseWholly(const std::string& text, T& value) {
+  const char* const begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
+  const char* const end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(begin, end, value);
+  return error == std::errc{} && stopped == end;
+}
+
+}  // namespace
+
+CLI::Option* addText(CLI::App& command, const std::string& name, const StringSetter& set, const OptionHelp& help) {
+  return command.add_option_function<std::string>(name, set, help.text)
+      ->type_name(help.placeholder)
+      ->default_str(help.fallback)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+std::int64_t parseWhole(const std::string& option, const std::string& text, std::int64_t low, std::int64_t high) {
+  std::int64_t value = 0;
+  if (!parseWholly(text, value) || value < low || value > high)
+    throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, low, high));
+  return value;
+}
+
+double parseReal(const std::string& option, const std::string& text, double low, double high) {
+  double value = 0.0;
+  // Written so that NaN is out of range.
+  if (!parseWholly(text, value) || !(value >= low && value <= high))
+    throw InputError(fmt::format("{}: '{}' is not a number from {:g} to {:g}", option, text, low, high));
+  return value;
+}
+
+CLI::Option* addFile(CLI::App& command, const std::string& name, std::filesystem::path& value, const std::string& placeholder,
+                     const std::string& text) {
+  return addText(command, name, [&value](const std::string& word) { value = word; }, {placeholder, text, {}});
+}
+
+}  // namespace whittle::cli

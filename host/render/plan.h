@@ -1,0 +1,29 @@
+// What a render would launch and allocate, without tracing a ray: for `whittle info`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cl/device.h"
+#include "render/scene_features.h"
+#include "render/stats.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace whittle {
+
+struct RenderPlan {
+  SceneFeatures features;
+  std::vector<std::string> stages;    ///< kernels, in the order of their first launch
+  std::vector<BufferStats> buffers;   ///< as allocated: real sizes
+  DeviceInfo device;
+  Settings settings;  ///< as a render would use them
+};
+
+/// Builds the tree, opens the device and allocates what a render would. Throws what render throws.
+RenderPlan planRender(const Scene& scene, const Settings& settings);
+
+/// The kernels that Wavefront may launch for these features, in order.
+std::vector<std::string> plannedStages(const SceneFeatures& features, std::size_t lights, int bounces);
+
+}  // namespace whittle

@@ -1,0 +1,50 @@
+// What ran when, for `--trace`: one record for each kernel launch and for each phase on the host, all on the host's
+// steady clock. Written in the Trace Event Format (JSON object form) that chrome://tracing and Perfetto read.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace whittle {
+
+class Trace {
+ public:
+  using Clock = std::chrono::steady_clock;
+  /// The rows of the picture. The compiler runs beside the tree builder, so it has a row of its own.
+  enum class Track { Host = 1, Compiler = 2, Device = 3 };
+
+  struct Launch {
+    std::string stage;
+    std::uint32_t bounce = 0;  ///< 1 = what the eye sees; 0: a stage outside the bounces
+    std::uint64_t items = 0;
+    double start = 0.0, end = 0.0;  ///< seconds of the steady clock
+  };
+
+  void launch(Launch record) { launches_.push_back(std::move(record)); }
+  /// From `start` to now. May be called from several threads.
+  void phase(const std::string& name, Clock::time_point start, Track track = Track::Host);
+
+  /// Times count from this object's construction.
+  nlohmann::ordered_json toJson() const;
+
+ private:
+  struct Phase {
+    std::string name;
+    Track track;
+    double start, end;
+  };
+
+  Clock::time_point origin_ = Clock::now();
+  std::vector<Launch> launches_;
+  std::vector<Phase> phases_;
+  std::mutex phasesMutex_;
+};
+
+/// The steady clock in seconds, as Trace::Launch wants it.
+double steadySeconds(Trace::Clock::time_point time);
+
+}  // namespace whittle

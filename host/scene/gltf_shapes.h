@@ -1,0 +1,24 @@
+// The properties of a glTF file that Whittle reads, and what each must look like.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace whittle::gltf {
+
+enum class Kind { Index, Size, Number, Flag, Text, Texts, Numbers, Indices, Object, Objects, Map, Maps, Raw };
+
+struct Field {
+  const char* key;
+  Kind kind;
+  const char* target = nullptr;        ///< indices: the array they refer to
+  std::span<const Field> fields = {};  ///< objects
+  std::size_t length = 0;              ///< numbers: exactly so many; 0: any
+  std::span<const int> oneOf = {};     ///< indices without a target: the legal values; empty: any
+  bool isRequired = false;
+};
+
+/// The members of the file's root object; everything else hangs on them.
+std::span<const Field> rootFields();
+
+}  // namespace whittle::gltf

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Renders every picture of this folder from the scenes beside it: P1 (cornell_box), P2 (mirror_box at 1, 2 and 7 bounces),
+# P3 (one for each illumination term). Usage: scenes/pictures/make.sh [WHITTLE], default build/release/whittle.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+whittle=${1:-$here/../../build/release/whittle}
+render() { # PICTURE SCENE [OPTIONS…]
+  local picture=$1 scene=$2
+  shift 2
+  "$whittle" render "$here/../$scene.glb" -o "$here/$picture.png" --rays-per-pixel 16 --sampler stratified --quiet "$@"
+  echo "$picture.png"
+}
+render cornell_box cornell_box --width 960 --height 540 --rays-per-pixel 64
+for bounces in 1 2 7; do render "mirror_box_$bounces" mirror_box --bounces "$bounces"; done
+for scene in spot_cone emission shadow mirror refraction textured nested_glass; do render "$scene" "$scene"; done
+render anti_aliasing_1 anti_aliasing --rays-per-pixel 1
+render anti_aliasing_64 anti_aliasing --rays-per-pixel 64

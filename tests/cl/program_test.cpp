@@ -1,0 +1,101 @@
+// Buffers that name themselves in messages, and builds whose failures carry the log with the file's own
+// lines.
+#include "cl/program.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "cl/kernel_source.h"
+#include "support/temporary_sources.h"
+#include "support/test_device.h"
+
+namespace whittle {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+template <typename Action>
+std::string clErrorOf(Action action) {
+  try {
+    action();
+  } catch (const ClError& e) {
+    return e.what();
+  }
+  return "no ClError";
+}
+
+TEST(Compute, AllocationOverTheLimitNamesBufferSizeAndLimit) {
+  Compute compute = test::openTestDevice();
+  const std::uint64_t limit = compute.device().largestBuffer;
+  const std::uint64_t tooMuch = limit + 4096;
+  const std::string message = clErrorOf([&] { compute.allocate("rays of the test", tooMuch); });
+  EXPECT_TRUE(contains(message, "'rays of the test'")) << message;
+  EXPECT_TRUE(contains(message, formatBytes(tooMuch))) << message;
+  EXPECT_TRUE(contains(message, formatBytes(limit))) << message;
+  EXPECT_TRUE(contains(message, compute.device().name)) << message;
+}
+
+TEST(Compute, BuffersKeepTheirContents) {
+  Compute compute = test::openTestDevice();
+  std::vector<std::uint32_t> values(1000);
+  std::iota(values.begin(), values.end(), 5U);
+  const Buffer buffer = compute.upload("numbers", values);
+  EXPECT_TRUE(buffer);
+  EXPECT_EQ(buffer.bytes, 4000U);
+  std::vector<std::uint32_t> part(10);
+  compute.read(buffer, 990 * sizeof(std::uint32_t), 10 * sizeof(std::uint32_t), part.data());
+  EXPECT_EQ(part, std::vector<std::uint32_t>(values.end() - 10, values.end()));
+  compute.fillZero(buffer);
+  std::vector<std::uint32_t> all(1000, 1);
+  compute.read(buffer, 0, buffer.bytes, all.data());
+  EXPECT_EQ(all, std::vector<std::uint32_t>(1000, 0));
+  const Buffer empty = compute.upload("nothing", std::vector<float>{});
+  EXPECT_FALSE(empty);
+  compute.fillZero(empty);
+  compute.read(empty, 0, 0, nullptr);
+  const std::string message = clErrorOf([&] { compute.read(buffer, 4000, 4, all.data()); });
+  EXPECT_TRUE(contains(message, "'numbers'")) << message;
+}
+
+TEST(Compute, BuildFailureCarriesTheLogWithTheFilesOwnLines) {
+  Compute compute = test::openTestDevice();
+  const test::TemporarySources sources;
+  sources.write("stage.cl",
+                "#include \"lib/first.cl\"\n\n__kernel void stage(__global int* out) { out[0] = one(); }\n");
+  sources.write("lib/first.cl", "#include \"lib/second.cl\"\nint one(void) { return two(); }\n");
+  sources.write("lib/second.cl", "// a comment\n\nint two(void) { return thisIsNotDeclared; }\n");
+  const std::string source = assembleKernelSource({"stage.cl"}, sources.folder());
+  const std::string message = clErrorOf([&] { compute.build(source, "-D SOME_OPTION=1"); });
+  EXPECT_TRUE(contains(message, "thisIsNotDeclared")) << message;
+  EXPECT_TRUE(contains(message, "lib/second.cl:3")) << message;
+  EXPECT_TRUE(contains(message, "CL_BUILD_PROGRAM_FAILURE")) << message;
+  EXPECT_TRUE(contains(message, "SOME_OPTION")) << message;
+
+  sources.write("lib/second.cl", "int two(void) { return 2; }\n");
+  sources.write("stage.cl",
+                "#include \"lib/first.cl\"\n\n__kernel void stage(__global int* out) { out[0] = three(); }\n"
+                "#include \"lib/second.cl\"\nint broken(void) { return alsoNotDeclared; }\n");
+  const std::string second =
+      clErrorOf([&] { compute.build(assembleKernelSource({"stage.cl"}, sources.folder()), ""); });
+  EXPECT_TRUE(contains(second, "stage.cl:5")) << "after two includes\n" << second;
+}
+
+TEST(Compute, UnknownBuildOptionsAreAnErrorThatNamesThem) {
+  Compute compute = test::openTestDevice();
+  const std::string message =
+      clErrorOf([&] { compute.build("__kernel void nothing(void) {}\n", "-this-is-no-option"); });
+  EXPECT_TRUE(contains(message, "-this-is-no-option")) << message;
+}
+
+TEST(FormatBytes, ForPeople) {
+  EXPECT_EQ(formatBytes(0), "0 B");
+  EXPECT_EQ(formatBytes(999), "999 B");
+  EXPECT_EQ(formatBytes(12'500'000), "12.5 MB");
+  EXPECT_EQ(formatBytes(2'000'000'000), "2 GB");
+}
+
+}  // namespace
+}  // namespace whittle

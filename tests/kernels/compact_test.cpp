@@ -1,0 +1,161 @@
+// compact.cl and find_long_runs against serial twins on the host: which entries, in which order, for chunks
+// that divide the count, that do not, and that are longer than it.
+#include <gtest/gtest.h>
+
+#include "kernels/shared/features.h"
+#include "kernels/shared/layout.h"
+#include "support/kernel_bench.h"
+#include "support/random_scenes.h"
+
+namespace whittle {
+namespace {
+
+constexpr std::uint32_t kCapacity =
+    4160;  // entries a queue has room for; of every chunk here none divides it but 1 and 32
+constexpr std::uint32_t kUntouched = 0xdeadbeefU;
+
+enum class Pattern { None, All, Random, OnlyLast };
+
+std::vector<std::uint32_t> makeFlags(Pattern pattern, std::uint32_t count) {
+  test::Rng rng(count + 17);
+  std::vector<std::uint32_t> flags(kCapacity + QUEUE_PADDING,
+                                   ENTRY_SHADOW | ENTRY_IMPULSE0 | ENTRY_IMPULSE1);  // beyond count: rubbish
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (pattern == Pattern::None) flags[i] = 0;
+    if (pattern == Pattern::Random) flags[i] = static_cast<std::uint32_t>(rng.bits() & 7U);
+    if (pattern == Pattern::OnlyLast && i + 1 < count) flags[i] = 0;
+  }
+  return flags;
+}
+
+/// The compaction of one chunk length, launched as the wavefront launches it.
+class Compaction {
+ public:
+  explicit Compaction(std::uint32_t chunk)
+      : bench({"compact.cl"}, "", test::kAllFeatures, static_cast<int>(chunk)), chunk_(chunk) {
+    totals_ = bench.compute.allocate("totals", (kCapacity / chunk + 2) * sizeof(std::uint32_t));
+    sum_ = bench.compute.allocate("sum", sizeof(std::uint32_t));
+  }
+
+  /// Indices of the entries with a shadow ray; the whole buffer, so that writes beyond the end show.
+  std::vector<std::uint32_t> shadow(const std::vector<std::uint32_t>& flags, std::uint32_t count) {
+    const Buffer f = bench.compute.upload("flags", flags);
+    const Buffer queue =
+        bench.compute.upload("shadowQueue", std::vector<std::uint32_t>(kCapacity, kUntouched));
+    bench.stages.run("compact_count_shadow", chunks(count), count, count, f, totals_);
+    scan(count);
+    bench.stages.run("compact_shadow", chunks(count), count, count, f, totals_, queue);
+    return bench.read<std::uint32_t>(queue, kCapacity);
+  }
+
+  /// The next ray queue, bits of all its planes, room for two impulses of each entry.
+  std::vector<std::uint32_t> impulse(const std::vector<std::uint32_t>& flags, std::uint32_t first,
+                                     std::uint32_t count, const std::vector<std::uint32_t>& impulses,
+                                     const std::vector<std::uint32_t>& rays) {
+    const Buffer f = bench.compute.upload("flags", flags);
+    const Buffer from = bench.compute.upload("impulses", impulses),
+                 queue = bench.compute.upload("rays", rays);
+    const Buffer next =
+        bench.compute.upload("next", std::vector<std::uint32_t>(RAY_PLANES * kCapacity, kUntouched));
+    bench.stages.run("compact_count_impulse", chunks(count), count, count, f, totals_);
+    scan(count);
+    bench.stages.run("compact_impulse", chunks(count), count, first, count, kCapacity, f, totals_, from,
+                     queue, next);
+    return bench.read<std::uint32_t>(next, RAY_PLANES * kCapacity);
+  }
+
+  std::uint32_t found = 0;  ///< of the last compaction
+  test::KernelBench bench;
+
+ private:
+  std::uint32_t chunks(std::uint32_t count) const { return (count + chunk_ - 1) / chunk_; }
+  void scan(std::uint32_t count) {
+    bench.stages.run("scan_chunks", 1, chunks(count), chunks(count), totals_, sum_);
+    found = bench.read<std::uint32_t>(sum_, 1)[0];
+  }
+
+  std::uint32_t chunk_;
+  Buffer totals_, sum_;
+};
+
+std::vector<std::uint32_t> distinctWords(std::size_t count, std::uint32_t first) {
+  std::vector<std::uint32_t> words(count);
+  for (std::size_t i = 0; i < count; ++i) words[i] = first + static_cast<std::uint32_t>(i);
+  return words;
+}
+
+void checkShadow(Compaction& compaction, Pattern pattern, std::uint32_t count) {
+  const auto flags = makeFlags(pattern, count);
+  std::vector<std::uint32_t> expected;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (flags[i] & ENTRY_SHADOW) expected.push_back(i);
+  const auto wanted = expected.size();
+  expected.resize(kCapacity, kUntouched);
+  const auto queue = compaction.shadow(flags, count);
+  EXPECT_EQ(compaction.found, wanted);
+  EXPECT_EQ(queue, expected);
+}
+
+void checkImpulse(Compaction& compaction, Pattern pattern, std::uint32_t count) {
+  static const auto impulses = distinctWords(2 * IMPULSE_PLANES * kCapacity, 1U << 20);
+  static const auto rays = distinctWords(RAY_PLANES * kCapacity, 1U << 24);
+  const std::uint32_t fitting =
+      std::min(count, kCapacity / 2);  // two of each must fit, as the wavefront's segments see to
+  const std::uint32_t first = kCapacity - fitting;
+  const auto flags = makeFlags(pattern, fitting);
+  std::vector<std::uint32_t> expected(RAY_PLANES * kCapacity, kUntouched);
+  std::uint32_t out = 0;
+  for (std::uint32_t i = 0; i < fitting; ++i) {
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      if (!(flags[i] & (k == 0 ? ENTRY_IMPULSE0 : ENTRY_IMPULSE1))) continue;
+      for (std::uint32_t plane = 0; plane < IMPULSE_PLANES;
+           ++plane)  // origin, direction, throughput: planes alike in both queues
+        expected[plane * kCapacity + out] = impulses[(k * IMPULSE_PLANES + plane) * kCapacity + i];
+      expected[RAY_SLOT * kCapacity + out] = rays[RAY_SLOT * kCapacity + first + i];
+      ++out;
+    }
+  }
+  const auto next = compaction.impulse(flags, first, fitting, impulses, rays);
+  EXPECT_EQ(compaction.found, out);
+  EXPECT_EQ(next, expected);
+}
+
+TEST(Compact, KeepsWhatIsWantedInOrder) {
+  for (const std::uint32_t chunk : {1U, 7U, 32U, 1024U}) {
+    Compaction compaction(chunk);
+    for (const std::uint32_t count : {0U, 1U, 333U, chunk, chunk + 1, 2 * chunk + 1, kCapacity}) {
+      for (const Pattern pattern : {Pattern::None, Pattern::All, Pattern::Random, Pattern::OnlyLast}) {
+        SCOPED_TRACE(
+            fmt::format("chunk {}, {} entries, pattern {}", chunk, count, static_cast<int>(pattern)));
+        checkShadow(compaction, pattern, count);
+        checkImpulse(compaction, pattern, count);
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(FindLongRuns, ReportsASampleLongerThanTheLimit) {
+  Compaction compaction(1024);
+  const auto reported = [&](std::uint32_t runBegin, std::uint32_t runLength, std::uint32_t count) {
+    auto rays = distinctWords(RAY_PLANES * kCapacity, 0);
+    for (std::uint32_t i = 0; i < runLength; ++i) rays[RAY_SLOT * kCapacity + runBegin + i] = 7;
+    const Buffer counters =
+        compaction.bench.compute.upload("counters", std::vector<std::uint32_t>(COUNTERS, 0));
+    compaction.bench.stages.run("find_long_runs", count, count, count, kCapacity,
+                                compaction.bench.compute.upload("rays", rays), counters);
+    return compaction.bench.read<std::uint32_t>(counters, COUNTERS)[COUNTER_LONG_RUN] != 0;
+  };
+  EXPECT_FALSE(reported(0, LONG_RUN, kCapacity));
+  EXPECT_TRUE(reported(0, LONG_RUN + 1, kCapacity));
+  EXPECT_FALSE(reported(1000, LONG_RUN, kCapacity));
+  EXPECT_TRUE(reported(1000, LONG_RUN + 1, kCapacity));
+  EXPECT_FALSE(reported(kCapacity - LONG_RUN, LONG_RUN, kCapacity));
+  EXPECT_TRUE(reported(kCapacity - LONG_RUN - 1, LONG_RUN + 1, kCapacity));
+  EXPECT_FALSE(reported(0, LONG_RUN + 1, LONG_RUN)) << "entries beyond the count do not count";
+  EXPECT_TRUE(reported(0, LONG_RUN + 1, LONG_RUN + 1));
+  EXPECT_FALSE(reported(0, 1, 1));
+}
+
+}  // namespace
+}  // namespace whittle

@@ -1,0 +1,63 @@
+// What the render tests share: scenes from disk, small settings, bits of pictures.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <string>
+
+#include "render/renderer.h"
+#include "scene/gltf_loader.h"
+
+namespace whittle::test {
+
+/// Small enough for the reference, 16:9 like the scenes' composition.
+inline Settings smallSettings(int bounces = 8) {
+  Settings settings;
+  settings.width = 96;
+  settings.height = 54;
+  settings.bounces = bounces;
+  return settings;
+}
+
+inline Scene loadScene(const std::filesystem::path& file) {
+  Notices notices;
+  return loadGltf(file, {}, notices);
+}
+
+/// A scene of the project, by name without extension.
+inline Scene ownScene(const std::string& name) {
+  return loadScene(std::filesystem::path(WHITTLE_SCENES) / (name + ".glb"));
+}
+
+/// Names of all the project's scenes.
+inline std::vector<std::string> ownScenes() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(WHITTLE_SCENES)) {
+    if (entry.path().extension() == ".glb") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Pixels whose bits differ.
+inline std::size_t differingPixels(const FloatImage& a, const FloatImage& b) {
+  if (a.width != b.width || a.height != b.height || a.channels != b.channels) return std::size_t(-1);
+  std::size_t count = 0;
+  const auto channels = static_cast<std::size_t>(a.channels);
+  for (std::size_t i = 0; i < a.pixels.size(); i += channels) {
+    count += std::memcmp(&a.pixels[i], &b.pixels[i], channels * sizeof(float)) != 0;
+  }
+  return count;
+}
+
+/// Launches and items of a stage; zeros if it never ran.
+inline StageStats stageOf(const Stats& stats, const std::string& name) {
+  for (const auto& stage : stats.stages) {
+    if (stage.name == name) return stage;
+  }
+  return {name, 0, 0.0, 0};
+}
+
+}  // namespace whittle::test

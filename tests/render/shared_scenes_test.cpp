@@ -1,0 +1,55 @@
+// The kernels against the reference on scenes that others made: each with another part of glTF.
+#include "agreement.h"
+#include "pictures.h"
+
+namespace whittle::test {
+namespace {
+
+struct SharedCase {
+  const char* name;
+  const char* path;
+  std::size_t outliers = 5;  ///< of 5184 pixels
+  int camera = 0;
+};
+
+void PrintTo(const SharedCase& c, std::ostream* out) { *out << c.name; }
+
+class SharedScene : public ::testing::TestWithParam<SharedCase> {};
+
+TEST_P(SharedScene, AgreesWithTheReference) {
+  const auto file = std::filesystem::path(WHITTLE_SHARED) / GetParam().path;
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  Settings settings = smallSettings();
+  settings.camera = std::to_string(GetParam().camera);
+  const Agreement agreement = compareWithReference(loadScene(file), settings);
+  EXPECT_GT(agreement.mean, 1e-4) << "there should be something to see";
+  expectAgreement(agreement, GetParam().name, GetParam().outliers);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, SharedScene,
+    // Measured in brackets where it is above 5. Sponza [76]: coordinates of some dozen repeats of 1024 texels, so that single
+    // precision moves a lookup by 1e-3 texel and more. CornellBox-Original [13] and -Mirror [19]: the light lies in the top
+    // face of the short block. MultiUVTest [24]: next to black, so that a thousandth of the mean is 3e-6.
+    ::testing::Values(SharedCase{"sponza", "bench/crytek-sponza/crytek-sponza.glb", 150},
+                      SharedCase{"teapot", "bench/teapot-full/teapot-full.glb"},
+                      SharedCase{"cornellOriginal", "bench/cornell-mcguire/CornellBox-Original.glb", 30},
+                      SharedCase{"cornellMirror", "bench/cornell-mcguire/CornellBox-Mirror.glb", 40},
+                      SharedCase{"cornellGlossy", "bench/cornell-mcguire/CornellBox-Glossy.glb"},
+                      SharedCase{"cornellSphere", "bench/cornell-mcguire/CornellBox-Sphere.glb"},
+                      SharedCase{"cornellWater", "bench/cornell-mcguire/CornellBox-Water.glb"},
+                      SharedCase{"alphaBlend", "gltf/AlphaBlendModeTest/glTF-Binary/AlphaBlendModeTest.glb"},
+                      SharedCase{"transmission", "gltf/TransmissionTest/glTF-Binary/TransmissionTest.glb"},
+                      SharedCase{"textureTransform", "gltf/TextureTransformTest/glTF/TextureTransformTest.gltf"},
+                      SharedCase{"vertexColors", "gltf/VertexColorTest/glTF-Binary/VertexColorTest.glb"},
+                      SharedCase{"multiUv", "gltf/MultiUVTest/glTF-Binary/MultiUVTest.glb", 50},
+                      SharedCase{"normalTangent", "gltf/NormalTangentTest/glTF-Binary/NormalTangentTest.glb"},
+                      SharedCase{"attenuation", "gltf/AttenuationTest/glTF-Binary/AttenuationTest.glb"},
+                      SharedCase{"specular", "gltf/SpecularTest/glTF-Binary/SpecularTest.glb"},
+                      SharedCase{"unlit", "gltf/UnlitTest/glTF-Binary/UnlitTest.glb"},
+                      SharedCase{"perspective", "gltf/Cameras/glTF/Cameras.gltf"},
+                      SharedCase{"orthographic", "gltf/Cameras/glTF/Cameras.gltf", 5, 1}),
+    [](const auto& scene) { return scene.param.name; });
+
+}  // namespace
+}  // namespace whittle::test

@@ -1,0 +1,19 @@
+// The device that tests run on: the renderer's own choice, or what WHITTLE_TEST_DEVICE selects (as --device
+// does), so that the same tests can be run on every device of a machine.
+#pragma once
+
+#include <cstdlib>
+#include <string>
+
+#include "cl/device.h"
+#include "cl/program.h"
+
+namespace whittle::test {
+
+/// Opens the device under test; throws with a message if there is none.
+inline Compute openTestDevice() {
+  const char* selector = std::getenv("WHITTLE_TEST_DEVICE");
+  return Compute(selectDevice(listDevices(), selector ? selector : ""));
+}
+
+}  // namespace whittle::test

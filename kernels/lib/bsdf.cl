@@ -13,17 +13,17 @@ float interfaceEta(const Surfel* s) {
 float3 dielectricReflectance(const Surfel* s, float cosine, float* cosT, int* total) {
   *total = 0;
   *cosT = cosine;
-  if (s->ior == 0.0f) return (float3)(s->specularF90);
   const float ratio = (s->ior - 1.0f) / (s->ior + 1.0f);
   const float r0 = ratio * ratio;
+  if (s->ior == 0.0f || r0 >= 1.0f) return s->specularF0;
   const float r = fresnelDielectric(cosine, interfaceEta(s), cosT);
   if (r >= 1.0f) {
     *total = *cosT == 0.0f;
     if (*total) return (float3)(1.0f);
   }
 #if HAS(SPECULAR_EXTENSION)
-  if (r0 >= 1.0f) return (float3)(r * s->specularF90);
-  return s->specularF0 + ((float3)(s->specularF90) - s->specularF0) * ((r - r0) / (1.0f - r0));
+  const float3 scaled = s->specularF0 + ((float3)(s->specularF90) - s->specularF0) * ((r - r0) / (1.0f - r0));
+  return clamp(scaled, 0.0f, 1.0f);  // dense dielectrics dip below R0
 #else
   return (float3)(r);
 #endif
@@ -45,7 +45,8 @@ float3 finiteScattering(const RenderConstants* constants, const Surfel* s, float
   const float3 h = normalize3(w_i + w_o);
   const float cosH = dot3(s->n, h);
   const float cosD = clamp(dot3(w_o, h), 0.0f, 1.0f);
-  const float alpha = s->roughness * s->roughness;
+  const float squared = s->roughness * s->roughness;
+  const float alpha = squared > 1e-3f ? squared : 1e-3f;  // a mirror's lobe would be 0/0
   const float a2 = alpha * alpha;
   const float k = cosH * cosH * (a2 - 1.0f) + 1.0f;
   const float distribution = a2 / (PI * k * k);
@@ -108,7 +109,9 @@ Impulse transmissionImpulse(const Surfel* s, float3 w_o, float3 reflectance) {
   impulse.magnitude = s->alpha * (1.0f - s->metallic) * s->transmission * s->baseColor * ((float3)(1.0f) - reflectance);
 #if HAS(REFRACTION)
   const float eta = interfaceEta(s);
-  if ((s->flags & MATERIAL_VOLUME) && eta != 1.0f && s->ior != 0.0f) {
+  if ((s->flags & MATERIAL_VOLUME) && s->ior == 0.0f) {
+    impulse.magnitude = (float3)(0.0f);
+  } else if ((s->flags & MATERIAL_VOLUME) && eta != 1.0f) {
     impulse.w_i = refracted(s->n, w_o, eta);
     if (!(dot3(s->n_g, impulse.w_i) < 0.0f)) impulse.w_i = refracted(s->n_g, w_o, eta);
     if (!(dot3(s->n_g, impulse.w_i) < 0.0f)) impulse.magnitude = (float3)(0.0f);

@@ -103,7 +103,7 @@ float3 shadowTransmittance(const SceneView* scene, uint triangleIndex, float b1,
     through += alpha * transmission * (1.0f - metallic) * (1.0f - reflected) * c.xyz;
   }
 #endif
-  return through;
+  return clamp(through, 0.0f, 1.0f);  // vertex colours may exceed 1
 }
 
 /// 1 if a masked triangle is really there at these barycentrics.

@@ -127,13 +127,12 @@ TEST(SearchAgreement, OfEqualHitsTheLowestIndexWins) {
   test::TriangleMesh mesh;
   mesh.add({-3, -3, -1}, {3, -3, -1}, {0, 3, -1});
   for (int i = 0; i < 10000; ++i) mesh.add({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
-  mesh.add({-1, -1, 0}, {0, 1, 0}, {1, -1, 0});
   const Scene scene = test::sceneOf(mesh);
   test::Rng rng(9);
   std::vector<TestRay> rays;
   for (int i = 0; i < 203; ++i) {
-    const glm::vec3 o(rng.between(-0.3F, 0.3F), rng.between(-0.3F, 0.3F), i % 2 ? 2.0F : -0.5F);
-    rays.push_back({o, glm::normalize(glm::vec3(rng.inBox(0.1F).x, 0.05F, i % 2 ? -1 : 1))});
+    const glm::vec3 o(rng.between(-0.1F, 0.1F), rng.between(-0.1F, 0.1F), i % 2 ? 2.0F : -0.5F);
+    rays.push_back({o, glm::normalize(glm::vec3(rng.between(-0.1F, 0.1F), 0.05F, i % 2 ? -1 : 1))});
   }
   for (const TestHit& hit : agreedHits(lab, scene, rays)) EXPECT_EQ(hit.primitive, 1);
 }

@@ -160,7 +160,7 @@ struct ExactHit {
 /// extent. Plane equation and edge distances in double: not the watertight test that the kernels run.
 inline std::vector<ExactHit> exactHits(const Scene& scene, const TestRay& ray, double margin) {
   std::vector<ExactHit> hits;
-  const glm::dvec3 o(ray.o), d = glm::normalize(glm::dvec3(ray.d));
+  const glm::dvec3 o(ray.o), d(ray.d);
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     const Triangle& triangle = scene.triangles[i];
     const glm::dvec3 p[3] = {glm::dvec3(scene.positions[triangle.v0]) - o,
@@ -179,7 +179,8 @@ inline std::vector<ExactHit> exactHits(const Scene& scene, const TestRay& ray, d
     if (facing == 0.0 || inset < -margin * extent) continue;
     const double t = glm::dot(n, p[0]) / facing;
     if (t > -margin * extent)
-      hits.push_back({static_cast<std::int64_t>(i), t, inset, std::abs(facing) / glm::length(n), extent});
+      hits.push_back({static_cast<std::int64_t>(i), t, inset,
+                      std::abs(facing) / glm::length(n) / glm::length(d), extent});
   }
   return hits;
 }

@@ -9,14 +9,12 @@ float compensatedAdd(float sum, float value, float* compensation) {
   return result;
 }
 
-__kernel void film(const Batch batch, const uint capacity, const uint width, const uint pixels,
-                   __global const uint* pixelOrder, __global const float* sampleRadiance,
-                   __global float* sums,  // [FILM_PLANES][pixels of the picture], row by row
+__kernel void film(const Batch batch, const uint capacity, const uint pixels, __global const float* sampleRadiance,
+                   __global float* sums,  // [FILM_PLANES][pixels of the picture], in the pixel order: no scattered writes
                    __global uint* counters) {
   const uint k = get_global_id(0);
   if (k >= batch.pixels) return;
-  const uint packed = pixelOrder[batch.firstPixel + k];
-  const uint pixel = (packed >> 16) * width + (packed & 0xffffu);
+  const uint pixel = batch.firstPixel + k;
   float sum[4], compensation[4];
   for (int c = 0; c < 4; ++c) {
     sum[c] = sums[(size_t)(c < 3 ? FILM_SUM + c : FILM_SQUARES) * pixels + pixel];

@@ -25,12 +25,15 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
 /// The parser reads on past a wrong command; the command is looked at first.
 void checkCommand(const CLI::App& app, const std::string& word) {
   std::vector<std::string> commands;
-  for (const CLI::App* c : app.get_subcommands([](const CLI::App*) { return true; })) commands.push_back(c->get_name());
+  for (const CLI::App* c : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(c->get_name());
   if (std::find(commands.begin(), commands.end(), word) != commands.end()) return;
   if (word == "-h" || word == "--help" || word == "--version") return;
   if (word.rfind('-', 0) == 0)
-    throw InputError(fmt::format("{}: a command comes first, for instance `whittle render SCENE {}`", word, word));
-  throw InputError(fmt::format("{}: no such command; {}`whittle --help` lists them", word, didYouMean(word, commands)));
+    throw InputError(
+        fmt::format("{}: a command comes first, for instance `whittle render SCENE {}`", word, word));
+  throw InputError(
+      fmt::format("{}: no such command; {}`whittle --help` lists them", word, didYouMean(word, commands)));
 }
 
 /// The chosen command, or the application itself.
@@ -42,12 +45,14 @@ const CLI::App& chosen(const CLI::App& app) {
 [[noreturn]] void explainExtra(const CLI::App& command, const std::string& path) {
   const auto extras = command.remaining(true);
   const std::string word = extras.empty() ? "" : extras.front();
-  if (word.rfind('-', 0) != 0) throw InputError(fmt::format("'{}': one argument too many for `{}`; see `{} --help`", word, path, path));
+  if (word.rfind('-', 0) != 0)
+    throw InputError(fmt::format("'{}': one argument too many for `{}`; see `{} --help`", word, path, path));
   const std::string name = word.substr(0, word.find('='));
   std::vector<std::string> options;
   for (const CLI::Option* o : command.get_options())
     for (const auto& n : o->get_lnames()) options.push_back("--" + n);
-  throw InputError(fmt::format("{}: no such option of `{}`; {}see `{} --help`", name, path, didYouMean(name, options), path));
+  throw InputError(fmt::format("{}: no such option of `{}`; {}see `{} --help`", name, path,
+                               didYouMean(name, options), path));
 }
 
 [[noreturn]] void explain(const CLI::ParseError& e, const CLI::App& app) {
@@ -56,10 +61,14 @@ const CLI::App& chosen(const CLI::App& app) {
   const std::string said = e.what();
   if (dynamic_cast<const CLI::ExtrasError*>(&e)) explainExtra(command, path);
   if (dynamic_cast<const CLI::RequiredError*>(&e))
-    throw InputError(fmt::format("{}: {}; see `{} --help`", path, said, path));
+    throw InputError(fmt::format("{}; see `{} --help`", said, path));
+  // "Could not convert: --quiet = yes": only flags leave their value to the parser.
+  if (dynamic_cast<const CLI::ConversionError*>(&e) && said.rfind("Could not convert: ", 0) == 0)
+    throw InputError(fmt::format("{}: takes no value", said.substr(19, said.find(' ', 19) - 19)));
   // "--width: 1 required PIXELS missing"
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&e) && said.find(" missing") != std::string::npos)
-    throw InputError(fmt::format("{}: a value is missing; see `{} --help`", said.substr(0, said.find(':')), path));
+    throw InputError(
+        fmt::format("{}: a value is missing; see `{} --help`", said.substr(0, said.find(':')), path));
   throw InputError(fmt::format("{}; see `{} --help`", said, path));
 }
 
@@ -100,7 +109,8 @@ int runApplication(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& e) {
     explain(e, app);
   }
-  if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written: is the disk full?");
+  if (std::fflush(stdout) != 0)
+    throw std::runtime_error("standard output cannot be written: is the disk full?");
   return status;
 }
 

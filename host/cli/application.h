@@ -3,8 +3,8 @@
 
 namespace whittle::cli {
 
-/// Parses and runs. Returns the exit status of a finished command; wrong usage, unusable input and failures leave as
-/// exceptions (InputError, std::invalid_argument: status 2; anything else: status 1).
+/// Parses and runs. Returns the exit status of a finished command; wrong usage, unusable input and failures
+/// leave as exceptions (InputError, std::invalid_argument: status 2; anything else: status 1).
 int runApplication(int argc, const char* const* argv);
 
 }  // namespace whittle::cli

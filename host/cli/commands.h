@@ -1,5 +1,6 @@
-// The sub-commands. Each function adds one to the application and returns nothing; when it was chosen, its callback
-// stores the exit status: 0 done, 1 failed. Unusable input leaves as an exception and becomes status 2 in main.
+// The sub-commands. Each function adds one to the application and returns nothing; when it was chosen, its
+// callback stores the exit status: 0 done, 1 failed. Unusable input leaves as an exception and becomes status
+// 2 in main.
 #pragma once
 
 #include <CLI/CLI.hpp>

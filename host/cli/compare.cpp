@@ -21,7 +21,8 @@ struct CompareOptions {
 int colorChannels(const FloatImage& image) { return image.channels >= 3 ? 3 : 1; }
 
 std::string shapeOf(const std::filesystem::path& file, const FloatImage& image) {
-  return fmt::format("{} is {}×{} with {}", file.string(), image.width, image.height, colorChannels(image) == 3 ? "colours" : "one channel");
+  return fmt::format("{} is {}×{} with {}", file.string(), image.width, image.height,
+                     colorChannels(image) == 3 ? "colours" : "one channel");
 }
 
 /// JSON has no NaN and no infinity: null says that the number is not finite.
@@ -37,7 +38,8 @@ void print(const ImageMetrics& m, std::uint64_t pixels) {
   line("relMse", fmt::format("{:.6g}", m.relMse), "mean of (a-b)²/(b²+0.01)");
   line("maxAbs", fmt::format("{:.6g}", m.maxAbs), "largest difference of a channel");
   line("flip", fmt::format("{:.6g}", m.flip), "mean FLIP of the tone-mapped pictures, 0 to 1");
-  line("differingPixels", formatInteger(m.differingPixels), fmt::format("of {} have other bits", formatInteger(pixels)).c_str());
+  line("differingPixels", formatInteger(m.differingPixels),
+       fmt::format("of {} have other bits", formatInteger(pixels)).c_str());
 }
 
 int runCompare(const CompareOptions& o) {
@@ -50,17 +52,21 @@ int runCompare(const CompareOptions& o) {
   const ImageMetrics m = compareImages(a, b);
   const auto pixels = static_cast<std::uint64_t>(a.width) * static_cast<std::uint64_t>(a.height);
   if (m.nonFinite + m.nonFiniteReference > 0)
-    fmt::print(stderr, "warning: pixels that are not finite: {} in {}, {} in {}; {}\n", formatInteger(m.nonFinite), o.a.string(),
-               formatInteger(m.nonFiniteReference), o.b.string(),
+    fmt::print(stderr, "warning: pixels that are not finite: {} in {}, {} in {}; {}\n",
+               formatInteger(m.nonFinite), o.a.string(), formatInteger(m.nonFiniteReference), o.b.string(),
                o.json ? "numbers that are not finite are null" : "they make the numbers nan or inf");
   if (!o.json) {
     print(m, pixels);
     return 0;
   }
-  const nlohmann::ordered_json json{{"rmse", finiteOrNull(m.rmse)},     {"relMse", finiteOrNull(m.relMse)},
-                                    {"maxAbs", finiteOrNull(m.maxAbs)}, {"flip", finiteOrNull(m.flip)},
-                                    {"differingPixels", m.differingPixels}, {"pixels", pixels},
-                                    {"nonFinite", m.nonFinite},         {"nonFiniteReference", m.nonFiniteReference}};
+  const nlohmann::ordered_json json{{"rmse", finiteOrNull(m.rmse)},
+                                    {"relMse", finiteOrNull(m.relMse)},
+                                    {"maxAbs", finiteOrNull(m.maxAbs)},
+                                    {"flip", finiteOrNull(m.flip)},
+                                    {"differingPixels", m.differingPixels},
+                                    {"pixels", pixels},
+                                    {"nonFinite", m.nonFinite},
+                                    {"nonFiniteReference", m.nonFiniteReference}};
   fmt::print("{}\n", json.dump(2));
   return 0;
 }
@@ -75,8 +81,9 @@ void addCompare(CLI::App& app, int& status) {
   c->add_option("B", o->b, "reference of the same size")->required();
   c->option_defaults()->group("Output");
   c->add_flag("--json", o->json, "as JSON; a number that is not finite is null");
-  c->footer("Status 1 if the pictures have different sizes or numbers of colour channels.\n"
-            "Example: whittle compare picture.exr right.exr");
+  c->footer(
+      "Status 1 if the pictures have different sizes or numbers of colour channels.\n"
+      "Example: whittle compare picture.exr right.exr");
   c->callback([o, &status] { status = runCompare(*o); });
 }
 

@@ -36,14 +36,16 @@ void printTable(const DeviceList& list) {
     fmt::print("{}  {}  {}\n", d.index, d.kind, d.name);
     fmt::print("   {}\n", d.platform);
     fmt::print("   {}\n   driver {}\n", d.version, d.driver);
-    fmt::print("   {}, {} of memory, {} at most in one buffer\n", formatSome(d.computeUnits, "compute unit", "compute units"),
-               formatBytes(d.globalMemory), formatBytes(d.largestBuffer));
+    fmt::print("   {}, {} of memory, {} at most in one buffer\n",
+               formatSome(d.computeUnits, "compute unit", "compute units"), formatBytes(d.globalMemory),
+               formatBytes(d.largestBuffer));
     if (!d.usable) fmt::print("   not usable: {}\n", d.reason);
   }
   for (const auto& problem : list.problems) fmt::print("-  {}\n", problem);
   if (list.devices.empty())
-    fmt::print("No OpenCL device. One that runs on any CPU is PoCL: `apt install pocl-opencl-icd` on Debian and\n"
-               "Ubuntu, `dnf install pocl` on Fedora. A GPU needs its vendor's OpenCL driver.\n");
+    fmt::print(
+        "No OpenCL device. One that runs on any CPU is PoCL: `apt install pocl-opencl-icd` on Debian and\n"
+        "Ubuntu, `dnf install pocl` on Fedora. A GPU needs its vendor's OpenCL driver.\n");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace whittle::cli {
 namespace {
 
 constexpr std::size_t kColumns = 80;
-constexpr std::size_t kTextColumn = 30;
+constexpr std::size_t kMaxTextColumn = 30;
 
 /// "-o, --output FILE".
 std::string nameOf(const CLI::Option& option) {
@@ -21,12 +21,21 @@ std::string nameOf(const CLI::Option& option) {
   return takesValue ? names + " " + option.get_type_name() : names;
 }
 
-std::string line(const std::string& name, const std::string& text) {
-  const std::string head = padded("  " + name, kTextColumn);
-  const std::string body = wrapped(text, kColumns - kTextColumn, kTextColumn);
+std::string line(const std::string& name, const std::string& text, std::size_t textColumn) {
+  const std::string head = padded("  " + name, textColumn);
+  const std::string body = wrapped(text, kColumns - textColumn, textColumn);
   // At least two blanks between a name and its text, or the text goes below.
-  if (columnsOf("  " + name) + 2 > kTextColumn) return head + "\n" + std::string(kTextColumn, ' ') + body + "\n";
+  if (columnsOf("  " + name) + 2 > textColumn)
+    return head + "\n" + std::string(textColumn, ' ') + body + "\n";
   return head + body + "\n";
+}
+
+/// Where the texts start: right of the widest name, within reason.
+std::size_t textColumnOf(const CLI::App& app, const std::vector<const CLI::App*>& commands) {
+  std::size_t widest = 0;
+  for (const CLI::App* command : commands) widest = std::max(widest, columnsOf(command->get_name()));
+  for (const CLI::Option* option : app.get_options()) widest = std::max(widest, columnsOf(nameOf(*option)));
+  return std::min(widest + 4, kMaxTextColumn);
 }
 
 std::string textOf(const CLI::Option& option) {
@@ -36,26 +45,29 @@ std::string textOf(const CLI::Option& option) {
 
 std::string usage(const CLI::App& app, const std::string& path) {
   std::string text = "Usage: " + path;
-  if (!app.get_subcommands([](const CLI::App*) { return true; }).empty()) return text + " COMMAND [options]\n";
+  if (!app.get_subcommands([](const CLI::App*) { return true; }).empty())
+    return text + " COMMAND [options]\n";
   for (const CLI::Option* option : app.get_options())
-    if (option->get_positional()) text += option->get_required() ? " " + option->get_name(true) : " [" + option->get_name(true) + "]";
+    if (option->get_positional())
+      text += option->get_required() ? " " + option->get_name(true) : " [" + option->get_name(true) + "]";
   return text + " [options]\n";
 }
 
 }  // namespace
 
-std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const {
-  const std::string path = app->get_parent() ? app->get_parent()->get_name() + " " + app->get_name() : app->get_name();
-  (void)name;
+std::string HelpFormatter::make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const {
+  const std::string path =
+      app->get_parent() ? app->get_parent()->get_name() + " " + app->get_name() : app->get_name();
   std::string out = wrapped(app->get_description(), kColumns, 0) + "\n\n" + usage(*app, path);
   const auto commands = app->get_subcommands([](const CLI::App*) { return true; });
+  const std::size_t textColumn = textColumnOf(*app, commands);
   if (!commands.empty()) out += "\nCommands\n";
-  for (const CLI::App* command : commands) out += line(command->get_name(), command->get_description());
-  std::vector<std::string> groups = app->get_groups();
-  for (const auto& group : groups) {
+  for (const CLI::App* command : commands)
+    out += line(command->get_name(), command->get_description(), textColumn);
+  for (const auto& group : app->get_groups()) {
     std::string lines;
     for (const CLI::Option* option : app->get_options())
-      if (option->get_group() == group) lines += line(nameOf(*option), textOf(*option));
+      if (option->get_group() == group) lines += line(nameOf(*option), textOf(*option), textColumn);
     if (!lines.empty() && !group.empty()) out += "\n" + group + "\n" + lines;
   }
   const std::string footer = app->get_footer();

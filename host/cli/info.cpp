@@ -18,7 +18,8 @@ struct InfoOptions {
   bool json = false;
 };
 
-/// The render's own set-up where there is a device for it, so that sizes are real; else what a CPU device would do.
+/// The render's own set-up where there is a device for it, so that sizes are real; else what a CPU device
+/// would do.
 void runInfo(const InfoOptions& o) {
   Notices notices;
   const Scene scene = loadScene(o.scene, notices);
@@ -38,7 +39,8 @@ void runInfo(const InfoOptions& o) {
   const auto stages = plan ? plan->stages : plannedStages(features, scene.lights.size(), o.settings.bounces);
   const InfoReport report{scene, notices, features, stages, plan, problem};
   if (o.json)
-    fmt::print("{}\n", infoJson(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    fmt::print("{}\n",
+               infoJson(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   else
     fmt::print("{}", infoText(report));
 }

@@ -28,14 +28,18 @@ Json camerasJson(const Scene& scene) {
 Json lightsJson(const Scene& scene) {
   Json lights = Json::array();
   for (const auto& l : scene.lights) {
-    lights.push_back({{"name", l.name},
-                      {"kind", l.kind == LightKind::Point ? "point" : (l.kind == LightKind::Spot ? "spot" : "directional")},
-                      {"castsShadows", l.castsShadows},
-                      {"intensity", toJson(l.intensity)}});
+    lights.push_back(
+        {{"name", l.name},
+         {"kind",
+          l.kind == LightKind::Point ? "point" : (l.kind == LightKind::Spot ? "spot" : "directional")},
+         {"castsShadows", l.castsShadows},
+         {"intensity", toJson(l.intensity)}});
     Json& light = lights.back();
-    if (l.kind != LightKind::Directional) light["position"] = toJson(l.position), light["range"] = finiteOrNull(l.range);
+    if (l.kind != LightKind::Directional)
+      light["position"] = toJson(l.position), light["range"] = finiteOrNull(l.range);
     if (l.kind != LightKind::Point) light["direction"] = toJson(l.direction);
-    if (l.kind == LightKind::Spot) light["innerConeAngle"] = l.innerConeAngle, light["outerConeAngle"] = l.outerConeAngle;
+    if (l.kind == LightKind::Spot)
+      light["innerConeAngle"] = l.innerConeAngle, light["outerConeAngle"] = l.outerConeAngle;
   }
   return lights;
 }
@@ -53,7 +57,8 @@ Json featuresJson(const SceneFeatures& features) {
 
 Json buffersJson(const RenderPlan& plan) {
   Json buffers = Json::array();
-  for (const auto& b : plan.buffers) buffers.push_back({{"name", b.name}, {"group", b.group}, {"bytes", b.bytes}});
+  for (const auto& b : plan.buffers)
+    buffers.push_back({{"name", b.name}, {"group", b.group}, {"bytes", b.bytes}});
   return buffers;
 }
 
@@ -62,17 +67,18 @@ Json buffersJson(const RenderPlan& plan) {
 Json infoJson(const InfoReport& r) {
   const Scene& scene = r.scene;
   const auto& b = scene.background;
-  Json json{{"file", scene.file},
-            {"triangles", scene.triangles.size()},
-            {"droppedTriangles", scene.droppedTriangles},
-            {"vertices", scene.positions.size()},
-            {"materials", scene.materials.size()},
-            {"textures", scene.images.size()},
-            {"lights", lightsJson(scene)},
-            {"cameras", camerasJson(scene)},
-            {"background", {{"radiance", toJson(b.radiance)}, {"mapWidth", b.width}, {"mapHeight", b.height}}},
-            {"features", featuresJson(r.features)},
-            {"stages", r.stages}};
+  Json json{
+      {"file", scene.file},
+      {"triangles", scene.triangles.size()},
+      {"droppedTriangles", scene.droppedTriangles},
+      {"vertices", scene.positions.size()},
+      {"materials", scene.materials.size()},
+      {"textures", scene.images.size()},
+      {"lights", lightsJson(scene)},
+      {"cameras", camerasJson(scene)},
+      {"background", {{"radiance", toJson(b.radiance)}, {"mapWidth", b.width}, {"mapHeight", b.height}}},
+      {"features", featuresJson(r.features)},
+      {"stages", r.stages}};
   json["device"] = r.plan ? Json(r.plan->device.name) : Json(nullptr);
   json["deviceProblem"] = r.plan ? Json(nullptr) : Json(r.planProblem);
   json["buffers"] = r.plan ? buffersJson(*r.plan) : Json(nullptr);

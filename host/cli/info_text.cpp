@@ -21,7 +21,8 @@ std::string vectorText(const glm::vec3& v) {
   return fmt::format("({}, {}, {})", number(v.x), number(v.y), number(v.z));
 }
 
-std::string entry(std::size_t index, const std::string& name, std::size_t nameColumns, const std::string& text) {
+std::string entry(std::size_t index, const std::string& name, std::size_t nameColumns,
+                  const std::string& text) {
   const std::string head = fmt::format("    {:>2}  {}  ", index, padded(name, nameColumns));
   return head + wrapped(text, 80 - std::min<std::size_t>(40, columnsOf(head)), columnsOf(head)) + "\n";
 }
@@ -34,18 +35,22 @@ std::size_t widestName(const Items& items) {
 }
 
 std::string cameraText(const Camera& c) {
-  const std::string lens = c.orthographic ? fmt::format("orthographic, {} m high", formatReal(2.0 * static_cast<double>(c.ymag)))
-                                          : fmt::format("perspective, {:.1f}° high", static_cast<double>(c.yfov) * kDegrees);
+  const std::string lens =
+      c.orthographic ? fmt::format("orthographic, {} m high", formatReal(2.0 * static_cast<double>(c.ymag)))
+                     : fmt::format("perspective, {:.1f}° high", static_cast<double>(c.yfov) * kDegrees);
   return fmt::format("{}, at {} m, looking {}", lens, vectorText(c.position), vectorText(c.forward));
 }
 
 std::string lightText(const Light& l) {
-  const char* const kind = l.kind == LightKind::Point ? "point" : (l.kind == LightKind::Spot ? "spot" : "directional");
-  std::string text = fmt::format("{}, {} {}", kind, vectorText(l.intensity), l.kind == LightKind::Directional ? "W/m²" : "W/sr");
+  const char* const kind =
+      l.kind == LightKind::Point ? "point" : (l.kind == LightKind::Spot ? "spot" : "directional");
+  std::string text = fmt::format("{}, {} {}", kind, vectorText(l.intensity),
+                                 l.kind == LightKind::Directional ? "W/m²" : "W/sr");
   if (l.kind != LightKind::Directional) text += fmt::format(", at {} m", vectorText(l.position));
   if (l.kind != LightKind::Point) text += fmt::format(", shining {}", vectorText(l.direction));
   if (l.kind == LightKind::Spot)
-    text += fmt::format(", half angle {:.1f}° to {:.1f}°", static_cast<double>(l.innerConeAngle) * kDegrees, static_cast<double>(l.outerConeAngle) * kDegrees);
+    text += fmt::format(", half angle {:.1f}° to {:.1f}°", static_cast<double>(l.innerConeAngle) * kDegrees,
+                        static_cast<double>(l.outerConeAngle) * kDegrees);
   if (std::isfinite(l.range)) text += fmt::format(", range {} m", formatReal(static_cast<double>(l.range)));
   return text + (l.castsShadows ? "" : ", casts no shadows");
 }
@@ -54,24 +59,30 @@ std::string boundsText(const Scene& scene) {
   if (scene.triangles.empty()) return "";
   glm::vec3 lo = scene.positions[scene.triangles.front().v0], hi = lo;
   for (const auto& t : scene.triangles)
-    for (const std::uint32_t v : {t.v0, t.v1, t.v2}) lo = glm::min(lo, scene.positions[v]), hi = glm::max(hi, scene.positions[v]);
+    for (const std::uint32_t v : {t.v0, t.v1, t.v2})
+      lo = glm::min(lo, scene.positions[v]), hi = glm::max(hi, scene.positions[v]);
   const glm::vec3 size = hi - lo;
-  return fmt::format("  {} × {} × {} m, from {} to {}\n", formatReal(static_cast<double>(size.x)), formatReal(static_cast<double>(size.y)),
-                     formatReal(static_cast<double>(size.z)), vectorText(lo), vectorText(hi));
+  return fmt::format("  {} × {} × {} m, from {} to {}\n", formatReal(static_cast<double>(size.x)),
+                     formatReal(static_cast<double>(size.y)), formatReal(static_cast<double>(size.z)),
+                     vectorText(lo), vectorText(hi));
 }
 
 std::string contents(const Scene& s) {
   std::string out = "What is in it\n  " + formatSome(s.triangles.size(), "triangle", "triangles");
   if (s.droppedTriangles > 0) out += fmt::format(" ({} dropped)", formatInteger(s.droppedTriangles));
-  out += fmt::format(", {}, {}, {}\n", formatSome(s.positions.size(), "vertex", "vertices"), formatSome(s.materials.size(), "material", "materials"),
+  out += fmt::format(", {}, {}, {}\n", formatSome(s.positions.size(), "vertex", "vertices"),
+                     formatSome(s.materials.size(), "material", "materials"),
                      formatSome(s.images.size(), "texture image", "texture images"));
   out += boundsText(s);
   out += fmt::format("  {}\n", formatSome(s.cameras.size(), "camera", "cameras"));
-  for (std::size_t i = 0; i < s.cameras.size(); ++i) out += entry(i, s.cameras[i].name, widestName(s.cameras), cameraText(s.cameras[i]));
+  for (std::size_t i = 0; i < s.cameras.size(); ++i)
+    out += entry(i, s.cameras[i].name, widestName(s.cameras), cameraText(s.cameras[i]));
   out += fmt::format("  {}\n", formatSome(s.lights.size(), "light", "lights"));
   constexpr std::size_t kShown = 20;
-  for (std::size_t i = 0; i < std::min(s.lights.size(), kShown); ++i) out += entry(i, s.lights[i].name, widestName(s.lights), lightText(s.lights[i]));
-  if (s.lights.size() > kShown) out += fmt::format("    … and {} more (--json has them all)\n", formatInteger(s.lights.size() - kShown));
+  for (std::size_t i = 0; i < std::min(s.lights.size(), kShown); ++i)
+    out += entry(i, s.lights[i].name, widestName(s.lights), lightText(s.lights[i]));
+  if (s.lights.size() > kShown)
+    out += fmt::format("    … and {} more (--json has them all)\n", formatInteger(s.lights.size() - kShown));
   const auto& b = s.background;
   const std::string map = b.map.empty() ? "" : fmt::format(" times a map of {}×{}", b.width, b.height);
   return out + fmt::format("  background {} W/(m² sr){}\n", vectorText(b.radiance), map);
@@ -86,14 +97,18 @@ std::string needs(const SceneFeatures& features) {
     else
       leftOut += "  " + padded(line.text, 34) + "  " + wrapped(line.reason, 42, 38) + "\n";
   }
-  return "\nNeeded\n  " + wrapped(used.empty() ? "nothing" : fmt::format("{}", fmt::join(used, ", ")), 78, 2) + "\n\nLeft out\n" +
-         (leftOut.empty() ? "  nothing\n" : leftOut);
+  return "\nNeeded\n  " +
+         wrapped(used.empty() ? "nothing" : fmt::format("{}", fmt::join(used, ", ")), 78, 2) +
+         "\n\nLeft out\n" + (leftOut.empty() ? "  nothing\n" : leftOut);
 }
 
 std::string buffersText(const RenderPlan& plan) {
   const auto& s = plan.settings;
-  std::string out = wrapped(fmt::format("Buffers on {}, {}×{} pixels, {} in flight", plan.device.name, s.width, s.height,
-                                        formatSome(static_cast<std::uint64_t>(s.wavefront), "ray", "rays")), 80, 2) + "\n";
+  std::string out =
+      wrapped(fmt::format("Buffers on {}, {}×{} pixels, {} in flight", plan.device.name, s.width, s.height,
+                          formatSome(static_cast<std::uint64_t>(s.wavefront), "ray", "rays")),
+              80, 2) +
+      "\n";
   std::uint64_t total = 0;
   for (const char* group : {"tree", "triangles", "textures", "queues", "film"}) {
     std::uint64_t bytes = 0;
@@ -101,7 +116,9 @@ std::string buffersText(const RenderPlan& plan) {
     for (const auto& b : plan.buffers)
       if (b.group == group) bytes += b.bytes, names.push_back(b.name);
     total += bytes;
-    if (!names.empty()) out += fmt::format("  {:<10} {:>8}  {}\n", group, formatBytes(bytes), wrapped(fmt::format("{}", fmt::join(names, ", ")), 57, 23));
+    if (!names.empty())
+      out += fmt::format("  {:<10} {:>8}  {}\n", group, formatBytes(bytes),
+                         wrapped(fmt::format("{}", fmt::join(names, ", ")), 57, 23));
   }
   return out + fmt::format("  {:<10} {:>8}\n", "total", formatBytes(total));
 }

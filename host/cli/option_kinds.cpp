@@ -18,14 +18,16 @@ bool parseWholly(const std::string& text, T& value) {
 
 }  // namespace
 
-CLI::Option* addText(CLI::App& command, const std::string& name, const StringSetter& set, const OptionHelp& help) {
+CLI::Option* addText(CLI::App& command, const std::string& name, const StringSetter& set,
+                     const OptionHelp& help) {
   return command.add_option_function<std::string>(name, set, help.text)
       ->type_name(help.placeholder)
       ->default_str(help.fallback)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
-std::int64_t parseWhole(const std::string& option, const std::string& text, std::int64_t low, std::int64_t high) {
+std::int64_t parseWhole(const std::string& option, const std::string& text, std::int64_t low,
+                        std::int64_t high) {
   std::int64_t value = 0;
   if (!parseWholly(text, value) || value < low || value > high)
     throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, low, high));
@@ -40,8 +42,8 @@ double parseReal(const std::string& option, const std::string& text, double low,
   return value;
 }
 
-CLI::Option* addFile(CLI::App& command, const std::string& name, std::filesystem::path& value, const std::string& placeholder,
-                     const std::string& text) {
+CLI::Option* addFile(CLI::App& command, const std::string& name, std::filesystem::path& value,
+                     const std::string& placeholder, const std::string& text) {
   return addText(command, name, [&value](const std::string& word) { value = word; }, {placeholder, text, {}});
 }
 

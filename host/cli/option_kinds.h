@@ -1,5 +1,5 @@
-// The few kinds of options there are. Each checks its own value and throws InputError in one line that names the
-// option, so that nobody meets a parser's words. The last of several values counts.
+// The few kinds of options there are. Each checks its own value and throws InputError in one line that names
+// the option, so that nobody meets a parser's words. The last of several values counts.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -23,33 +23,37 @@ struct OptionHelp {
   std::string fallback;  ///< the default as a person reads it; empty: none shown
 };
 
-CLI::Option* addText(CLI::App& command, const std::string& name, const StringSetter& set, const OptionHelp& help);
+CLI::Option* addText(CLI::App& command, const std::string& name, const StringSetter& set,
+                     const OptionHelp& help);
 
 /// Throws InputError that names `option` unless `text` is a number in [low, high], wholly.
-std::int64_t parseWhole(const std::string& option, const std::string& text, std::int64_t low, std::int64_t high);
+std::int64_t parseWhole(const std::string& option, const std::string& text, std::int64_t low,
+                        std::int64_t high);
 double parseReal(const std::string& option, const std::string& text, double low, double high);
 
 template <typename T>
-CLI::Option* addWhole(CLI::App& command, const std::string& name, T& value, std::int64_t low, std::int64_t high,
-                      const std::string& placeholder, const std::string& text, const std::string& fallback = {}) {
-  return addText(
-      command, name, [&value, name, low, high](const std::string& word) { value = static_cast<T>(parseWhole(name, word, low, high)); },
-      {placeholder, text, fallback.empty() ? std::to_string(value) : fallback});
+CLI::Option* addWhole(CLI::App& command, const std::string& name, T& value, std::int64_t low,
+                      std::int64_t high, const std::string& placeholder, const std::string& text,
+                      const std::string& fallback = {}) {
+  return addText(command, name,
+                 [&value, name, low, high](const std::string& word) {
+                   value = static_cast<T>(parseWhole(name, word, low, high));
+                 },
+                 {placeholder, text, fallback.empty() ? std::to_string(value) : fallback});
 }
 
 /// T: float, double or an optional of them.
 template <typename T>
 CLI::Option* addReal(CLI::App& command, const std::string& name, T& value, double low, double high,
                      const std::string& placeholder, const std::string& text, const std::string& fallback) {
-  return addText(
-      command, name,
-      [&value, name, low, high](const std::string& word) {
-        if constexpr (std::is_same_v<T, double>)
-          value = parseReal(name, word, low, high);
-        else
-          value = static_cast<float>(parseReal(name, word, low, high));
-      },
-      {placeholder, text, fallback});
+  return addText(command, name,
+                 [&value, name, low, high](const std::string& word) {
+                   if constexpr (std::is_same_v<T, double>)
+                     value = parseReal(name, word, low, high);
+                   else
+                     value = static_cast<float>(parseReal(name, word, low, high));
+                 },
+                 {placeholder, text, fallback});
 }
 
 template <typename T>
@@ -60,8 +64,8 @@ struct Choice {
 
 /// One of a few words; the help shows them in this order.
 template <typename T>
-CLI::Option* addChoice(CLI::App& command, const std::string& name, T& value, const std::vector<Choice<T>>& choices,
-                       const std::string& text) {
+CLI::Option* addChoice(CLI::App& command, const std::string& name, T& value,
+                       const std::vector<Choice<T>>& choices, const std::string& text) {
   std::string words, fallback;
   for (const auto& c : choices) {
     words += (words.empty() ? "" : "|") + std::string(c.word);
@@ -78,12 +82,12 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, T& value, con
   return addText(command, name, set, {words, text, fallback});
 }
 
-CLI::Option* addFile(CLI::App& command, const std::string& name, std::filesystem::path& value, const std::string& placeholder,
-                     const std::string& text);
+CLI::Option* addFile(CLI::App& command, const std::string& name, std::filesystem::path& value,
+                     const std::string& placeholder, const std::string& text);
 /// May be given several times, one value each time.
 template <typename T>
-CLI::Option* addSeveral(CLI::App& command, const std::string& name, std::vector<T>& values, const std::string& placeholder,
-                        const std::string& text) {
+CLI::Option* addSeveral(CLI::App& command, const std::string& name, std::vector<T>& values,
+                        const std::string& placeholder, const std::string& text) {
   return command.add_option(name, values, text)->type_name(placeholder)->allow_extra_args(false);
 }
 

@@ -26,7 +26,8 @@ bool parseRadiance(const std::string& text, glm::vec3& out) {
     out = glm::vec3(v.r);
     return true;
   }
-  if (!(in >> comma1 >> v.g >> comma2 >> v.b) || comma1 != ',' || comma2 != ',' || !(in >> std::ws).eof()) return false;
+  if (!(in >> comma1 >> v.g >> comma2 >> v.b) || comma1 != ',' || comma2 != ',' || !(in >> std::ws).eof())
+    return false;
   out = v;
   return true;
 }
@@ -56,7 +57,8 @@ void applyBackground(Scene& scene, const std::string& text) {
     scene.background = readBackground(text);
     return;
   }
-  if (!(radiance.r >= 0.0F && radiance.g >= 0.0F && radiance.b >= 0.0F) || !std::isfinite(radiance.r + radiance.g + radiance.b))
+  if (!(radiance.r >= 0.0F && radiance.g >= 0.0F && radiance.b >= 0.0F) ||
+      !std::isfinite(radiance.r + radiance.g + radiance.b))
     throw InputError(fmt::format("--background: '{}': radiance must be finite and not negative", text));
   scene.background = {};
   scene.background.radiance = radiance;
@@ -70,38 +72,50 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
   addText(c, "--scene", [&o](const std::string& v) { o.scene = v; },
           {"NAME|INDEX", "which scene of the file", "the file's default"});
   addText(c, "--background", [&o](const std::string& v) { o.background = v; },
-          {"R,G,B|FILE", "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr", "as the file says"});
+          {"R,G,B|FILE",
+           "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr",
+           "as the file says"});
 }
 
 void addPictureOptions(CLI::App& c, Settings& s) {
   c.option_defaults()->group("Picture");
   addWhole(c, "--width", s.width, 1, 65535, "PIXELS", "width of the picture");
   addWhole(c, "--height", s.height, 1, 65535, "PIXELS", "height of the picture");
-  addText(c, "--camera", [&s](const std::string& v) { s.camera = v; }, {"NAME|INDEX", "camera of the scene", s.camera});
+  addText(c, "--camera", [&s](const std::string& v) { s.camera = v; },
+          {"NAME|INDEX", "camera of the scene", s.camera});
   addReal(c, "--exposure", s.exposure, -60, 60, "STOPS", "brightness of .png and .jpg", "0");
 
   c.option_defaults()->group("Light");
   addWhole(c, "--bounces", s.bounces, 1, 4096, "N", "backward tracing steps; 1 = direct light only");
-  addWhole(c, "--rays-per-pixel", s.raysPerPixel, 1, 1 << 24, "N", "primary rays; 1 = through the pixel's centre");
+  addWhole(c, "--rays-per-pixel", s.raysPerPixel, 1, 1 << 24, "N",
+           "primary rays; 1 = through the pixel's centre");
   c.add_flag("--shadows,!--no-shadows", s.shadows, "trace shadow rays [on]");
-  addChoice<Sampler>(c, "--sampler", s.sampler,
-                     {{"random", Sampler::Random}, {"stratified", Sampler::Stratified}, {"sobol", Sampler::Sobol}},
-                     "where in the pixel its rays start");
+  addChoice<Sampler>(
+      c, "--sampler", s.sampler,
+      {{"random", Sampler::Random}, {"stratified", Sampler::Stratified}, {"sobol", Sampler::Sobol}},
+      "where in the pixel its rays start");
   addWhole(c, "--seed", s.seed, 0, std::numeric_limits<std::uint32_t>::max(), "N", "of every random number");
   addChoice<ImpulseMode>(c, "--impulses", s.impulses, {{"all", ImpulseMode::All}, {"one", ImpulseMode::One}},
                          "follow both branches of a surface, or one chosen at random");
-  addReal(c, "--bump", s.bump, 0, 1e30, "METRES", "distance of a ray's origin from its surface", "from the rounding error of each hit");
-  addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R", "surfaces smoother than this are mirrors", fmt::format("{}", s.mirrorRoughness));
+  addReal(c, "--bump", s.bump, 0, 1e30, "METRES", "distance of a ray's origin from its surface",
+          "from the rounding error of each hit");
+  addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R", "surfaces smoother than this are mirrors",
+          fmt::format("{}", s.mirrorRoughness));
 }
 
 void addDeviceOptions(CLI::App& c, Settings& s) {
   c.option_defaults()->group("Device");
   addText(c, "--device", [&s](const std::string& v) { s.device = v; },
-          {"SELECTOR", "index from `whittle devices`, part of a name, or cpu|gpu", "the first CPU, else the first"});
-  addWhole(c, "--threads", s.threads, 0, 4096, "N", "threads of a CPU device and of the tree builder", "0: all");
-  addWhole(c, "--wavefront", s.wavefront, 1, 1 << 28, "N", "rays in flight; raised to 512 and lowered to what the picture needs");
-  addWhole(c, "--work-group", s.workGroup, 0, 65536, "N", "work items of a group", "0: chosen for the device");
-  addChoice<Search>(c, "--search", s.search, {{"auto", Search::Auto}, {"tree", Search::Tree}, {"array", Search::Array}},
+          {"SELECTOR", "index from `whittle devices`, part of a name, or cpu|gpu",
+           "the first CPU, else the first"});
+  addWhole(c, "--threads", s.threads, 0, 4096, "N", "threads of a CPU device and of the tree builder",
+           "0: all");
+  addWhole(c, "--wavefront", s.wavefront, 1, 1 << 28, "N",
+           "rays in flight; raised to 512 and lowered to what the picture needs");
+  addWhole(c, "--work-group", s.workGroup, 0, 65536, "N", "work items of a group",
+           "0: chosen for the device");
+  addChoice<Search>(c, "--search", s.search,
+                    {{"auto", Search::Auto}, {"tree", Search::Tree}, {"array", Search::Array}},
                     "how the nearest triangle is found");
   addChoice<Lanes>(c, "--lanes", s.lanes, {{"auto", Lanes::Auto}, {"1", Lanes::One}, {"8", Lanes::Eight}},
                    "rays that one work item searches for");

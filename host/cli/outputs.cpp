@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 
 bool isExr(const fs::path& file) {
   std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension == ".exr";
 }
 
@@ -41,7 +42,8 @@ void writeStream(const fs::path& path, const std::string& text) {
   written = written && std::fflush(out) == 0;
   const int error = errno;
   if (out != nullptr) std::fclose(out);
-  if (!written) throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(error)));
+  if (!written)
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(error)));
 }
 
 }  // namespace
@@ -50,9 +52,11 @@ AovOutput parseAov(const std::string& text, const std::vector<std::string>& name
   const auto equals = text.find('=');
   const std::string name = text.substr(0, equals);
   if (equals == std::string::npos || std::find(names.begin(), names.end(), name) == names.end())
-    throw InputError(fmt::format("--aov: '{}' is not NAME=FILE with NAME one of {}", text, fmt::join(names, ", ")));
+    throw InputError(
+        fmt::format("--aov: '{}' is not NAME=FILE with NAME one of {}", text, fmt::join(names, ", ")));
   AovOutput aov{name, text.substr(equals + 1)};
-  if (!isExr(aov.file)) throw InputError(fmt::format("--aov: '{}' must end in .exr: it holds floats", aov.file.string()));
+  if (!isExr(aov.file))
+    throw InputError(fmt::format("--aov: '{}' must end in .exr: it holds floats", aov.file.string()));
   return aov;
 }
 
@@ -62,7 +66,8 @@ void OutputCheck::claim(const std::string& option, const fs::path& file) {
     return fs::weakly_canonical(other, error) == fs::weakly_canonical(file, error);
   };
   if (isStream(file)) return;
-  if (same(used_.front())) throw InputError(fmt::format("{}: {} is the input; it would be overwritten", option, file.string()));
+  if (same(used_.front()))
+    throw InputError(fmt::format("{}: {} is the input; it would be overwritten", option, file.string()));
   if (std::any_of(used_.begin() + 1, used_.end(), same))
     throw InputError(fmt::format("{}: {} is named for two outputs", option, file.string()));
   used_.push_back(file);
@@ -88,7 +93,8 @@ void OutputCheck::text(const std::string& option, const fs::path& file) {
   claim(option, file);
 }
 
-void writePicture(const fs::path& file, const FloatImage& radiance, float exposure, const ImageMetadata& metadata) {
+void writePicture(const fs::path& file, const FloatImage& radiance, float exposure,
+                  const ImageMetadata& metadata) {
   if (isExr(file))
     writeExr(file, radiance, metadata);
   else

@@ -36,7 +36,8 @@ class OutputCheck {
 };
 
 /// .exr: linear floats; .png/.jpg: tone-mapped at `exposure` stops. `metadata` goes into the file.
-void writePicture(const std::filesystem::path& file, const FloatImage& radiance, float exposure, const ImageMetadata& metadata);
+void writePicture(const std::filesystem::path& file, const FloatImage& radiance, float exposure,
+                  const ImageMetadata& metadata);
 
 /// Writes text to a file that appears whole or not at all; devices and pipes are written to as they are.
 /// Throws std::runtime_error.

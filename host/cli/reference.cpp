@@ -35,25 +35,36 @@ void checkOutputs(ReferenceOptions& o) {
   check.text("--stats", o.stats);
 }
 
-std::string statsText(const ReferenceOptions& o, const Scene& scene, const ReferenceResult& result, double seconds) {
+std::string statsText(const ReferenceOptions& o, const Scene& scene, const ReferenceResult& result,
+                      double seconds) {
   const auto& rays = result.rays;
-  const nlohmann::ordered_json json{
-      {"scene", {{"file", scene.file}, {"triangles", scene.triangles.size()}, {"droppedTriangles", scene.droppedTriangles},
-                 {"materials", scene.materials.size()}, {"lights", scene.lights.size()}, {"textures", scene.images.size()}}},
-      {"settings", settingsToJson(o.settings)},
-      {"rays", {{"primary", rays.primary}, {"impulse", rays.impulse}, {"shadow", rays.shadow}, {"total", rays.total()}}},
-      {"time", {{"render", seconds}}},
-      {"nonFinite", result.nonFinite}};
+  const nlohmann::ordered_json json{{"scene",
+                                     {{"file", scene.file},
+                                      {"triangles", scene.triangles.size()},
+                                      {"droppedTriangles", scene.droppedTriangles},
+                                      {"materials", scene.materials.size()},
+                                      {"lights", scene.lights.size()},
+                                      {"textures", scene.images.size()}}},
+                                    {"settings", settingsToJson(o.settings)},
+                                    {"rays",
+                                     {{"primary", rays.primary},
+                                      {"impulse", rays.impulse},
+                                      {"shadow", rays.shadow},
+                                      {"total", rays.total()}}},
+                                    {"time", {{"render", seconds}}},
+                                    {"nonFinite", result.nonFinite}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-void writeResults(const ReferenceOptions& o, const Scene& scene, const ReferenceResult& result, double seconds) {
+void writeResults(const ReferenceOptions& o, const Scene& scene, const ReferenceResult& result,
+                  double seconds) {
   const HoldSignals whole;
   const ImageMetadata metadata{{"whittle:settings", settingsToJson(o.settings).dump()},
                                {"whittle:scene", o.scene.file.filename().string()},
                                {"whittle:reference", "double precision"}};
   for (const auto& file : o.outputs) writePicture(file, result.radiance, o.settings.exposure, metadata);
-  for (const auto& aov : o.aovs) writeExr(aov.file, aov.name == "depth" ? result.depth : result.primitive, metadata);
+  for (const auto& aov : o.aovs)
+    writeExr(aov.file, aov.name == "depth" ? result.depth : result.primitive, metadata);
   if (!o.stats.empty()) writeTextFile(o.stats, statsText(o, scene, result, seconds));
 }
 
@@ -63,20 +74,23 @@ void runReference(ReferenceOptions& o) {
   const Scene scene = loadScene(o.scene, notices);
   ProgressBar bar(o.scene.quiet);
   const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   const ReferenceResult result = renderReference(scene, o.settings, [&](int done, int of) {
     bar.update(static_cast<double>(done) / of, seconds(), "double precision");
   });
   bar.clear();
   const double elapsed = seconds();
   if (result.nonFinite > 0)
-    fmt::print(stderr, "warning: {} samples were not finite and count as black\n", formatInteger(result.nonFinite));
+    fmt::print(stderr, "warning: {} samples were not finite and count as black\n",
+               formatInteger(result.nonFinite));
   writeResults(o, scene, result, elapsed);
   if (o.scene.quiet) return;
   const auto& rays = result.rays;
-  fmt::print("{}×{} in double precision: {} rays in {}\n{} primary, {} impulse, {} shadow\n", o.settings.width, o.settings.height,
-             formatInteger(rays.total()), formatSeconds(elapsed), formatInteger(rays.primary), formatInteger(rays.impulse),
-             formatInteger(rays.shadow));
+  fmt::print("{}×{} in double precision: {} rays in {}\n{} primary, {} impulse, {} shadow\n",
+             o.settings.width, o.settings.height, formatInteger(rays.total()), formatSeconds(elapsed),
+             formatInteger(rays.primary), formatInteger(rays.impulse), formatInteger(rays.shadow));
   for (const auto& file : o.outputs) fmt::print("wrote {}\n", file.string());
   for (const auto& aov : o.aovs) fmt::print("wrote {} ({})\n", aov.file.string(), aov.name);
   if (!o.stats.empty()) fmt::print("wrote {}\n", o.stats.string());
@@ -90,8 +104,10 @@ void addReference(CLI::App& app, int& status) {
   addSceneOptions(*c, o->scene);
   c->option_defaults()->group("Output");
   addSeveral(*c, "-o,--output", o->outputs, "FILE",
-             ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times")->required();
-  addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE", "depth|primitive of each pixel's first sample, as .exr; may be given several times");
+             ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times")
+      ->required();
+  addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE",
+             "depth|primitive of each pixel's first sample, as .exr; may be given several times");
   addFile(*c, "--stats", o->stats, "FILE", "settings, ray counts and time as JSON");
   c->add_flag("--quiet", o->scene.quiet, "no progress, notes or summary");
   addPictureOptions(*c, o->settings);

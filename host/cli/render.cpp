@@ -38,7 +38,8 @@ void checkOutputs(RenderOptions& o) {
   if (o.outputs.empty() && o.stats.empty() && o.trace.empty() && o.aovTexts.empty() && !o.profile)
     o.outputs.emplace_back(o.scene.file.stem().string() + ".png");
   OutputCheck check(o.scene.file);
-  for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, {"depth", "normal", "albedo", "primitive"}));
+  for (const auto& text : o.aovTexts)
+    o.aovs.push_back(parseAov(text, {"depth", "normal", "albedo", "primitive"}));
   for (const auto& file : o.outputs) check.picture("--output", file);
   for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
   check.text("--stats", o.stats);
@@ -56,13 +57,16 @@ FloatImage readReference(const RenderOptions& o) {
     throw InputError(fmt::format("--reference: {}", e.what()));
   }
   if (image.width != o.settings.width || image.height != o.settings.height)
-    throw InputError(fmt::format("--reference: {} is {}×{} but the picture is {}×{}; set --width and --height", o.reference.string(),
-                                 image.width, image.height, o.settings.width, o.settings.height));
-  if (image.channels < 3) throw InputError(fmt::format("--reference: {} has no colours", o.reference.string()));
+    throw InputError(
+        fmt::format("--reference: {} is {}×{} but the picture is {}×{}; set --width and --height",
+                    o.reference.string(), image.width, image.height, o.settings.width, o.settings.height));
+  if (image.channels < 3)
+    throw InputError(fmt::format("--reference: {} has no colours", o.reference.string()));
   return image;
 }
 
-RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, const FloatImage& reference, Trace* trace) {
+RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, const FloatImage& reference,
+                                Trace* trace) {
   ProgressBar bar(o.scene.quiet);
   RenderHooks hooks;
   if (!o.kernelFolder.empty()) hooks.kernelFolder = o.kernelFolder;
@@ -78,14 +82,16 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
   } catch (const std::invalid_argument& e) {
     // With nothing asked for, a machine without a device is no wrong usage.
     if (!o.settings.device.empty()) throw;
-    throw std::runtime_error(fmt::format("{}; a CPU device needs only pocl-opencl-icd or your system's PoCL package", e.what()));
+    throw std::runtime_error(
+        fmt::format("{}; a CPU device needs only pocl-opencl-icd or your system's PoCL package", e.what()));
   }
 }
 
 ImageMetadata pictureMetadata(const RenderOptions& o, const Stats& stats) {
   return {{"whittle:settings", settingsToJson(stats.settings).dump()},
           {"whittle:scene", o.scene.file.filename().string()},
-          {"whittle:rays", fmt::format("primary {} impulse {} shadow {}", stats.rays.primary, stats.rays.impulse, stats.rays.shadow)},
+          {"whittle:rays", fmt::format("primary {} impulse {} shadow {}", stats.rays.primary,
+                                       stats.rays.impulse, stats.rays.shadow)},
           {"whittle:renderSeconds", fmt::format("{:.6f}", stats.time.render)}};
 }
 
@@ -93,7 +99,9 @@ ImageMetadata pictureMetadata(const RenderOptions& o, const Stats& stats) {
 std::string statsText(const RenderOptions& o, const Stats& stats) {
   nlohmann::ordered_json json = statsToJson(stats);
   auto& s = json["settings"];
-  const auto path = [](const std::filesystem::path& p) { return p.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(p.string()); };
+  const auto path = [](const std::filesystem::path& p) {
+    return p.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(p.string());
+  };
   s["scene"] = path(o.scene.scene);
   s["background"] = path(o.scene.background);
   s["output"] = nlohmann::ordered_json::array();
@@ -149,7 +157,8 @@ void runRender(RenderOptions& o) {
   RenderResult result = renderWithProgress(scene, o, reference, trace.get());
   result.stats.time.load = load;
   if (result.stats.nonFinite > 0)
-    fmt::print(stderr, "warning: {} samples were not finite and count as black\n", formatInteger(result.stats.nonFinite));
+    fmt::print(stderr, "warning: {} samples were not finite and count as black\n",
+               formatInteger(result.stats.nonFinite));
   writeResults(o, result, start, trace.get());
   report(o, result.stats);
 }
@@ -161,21 +170,29 @@ void addRender(CLI::App& app, int& status) {
   CLI::App* c = app.add_subcommand("render", "render a scene on an OpenCL device");
   addSceneOptions(*c, o->scene);
   c->option_defaults()->group("Output");
-  addSeveral(*c, "-o,--output", o->outputs, "FILE",
-             ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times [SCENE's name .png]");
-  addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE", "depth|normal|albedo|primitive of each pixel's first sample, as .exr; may be given several times");
+  addSeveral(
+      *c, "-o,--output", o->outputs, "FILE",
+      ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times [SCENE's name .png]");
+  addSeveral(
+      *c, "--aov", o->aovTexts, "NAME=FILE",
+      "depth|normal|albedo|primitive of each pixel's first sample, as .exr; may be given several times");
   addFile(*c, "--stats", o->stats, "FILE", "statistics as JSON");
   c->add_flag("--profile", o->profile, "print time and rate of each stage");
   addFile(*c, "--trace", o->trace, "FILE", "every kernel launch as Chrome/Perfetto JSON");
-  c->add_flag("--quiet", o->scene.quiet, "no progress, notes or summary; warnings, errors and --profile only");
+  c->add_flag("--quiet", o->scene.quiet,
+              "no progress, notes or summary; warnings, errors and --profile only");
   addPictureOptions(*c, o->settings);
   c->option_defaults()->group("Error against time");
-  addReal(*c, "--target-error", o->settings.targetError, 0, 1e30, "E", "stop once the estimated RMSE in W/(m² sr) is at most this", "0: never");
-  addReal(*c, "--time-limit", o->settings.timeLimit, 0, 1e9, "SECONDS", "start no further pass after this much rendering", "0: none");
-  addFile(*c, "--reference", o->reference, "FILE", "measure the true RMSE against this .exr after each pass, for --stats");
+  addReal(*c, "--target-error", o->settings.targetError, 0, 1e30, "E",
+          "stop once the estimated RMSE in W/(m² sr) is at most this", "0: never");
+  addReal(*c, "--time-limit", o->settings.timeLimit, 0, 1e9, "SECONDS",
+          "start no further pass after this much rendering", "0: none");
+  addFile(*c, "--reference", o->reference, "FILE",
+          "measure the true RMSE against this .exr after each pass, for --stats");
   addDeviceOptions(*c, o->settings);
-  addFile(*c, "--kernels", o->kernelFolder, "FOLDER", "read kernels from here, not from the program (for developers)");
-  c->footer("Example: whittle render scene.glb -o picture.png -o picture.exr --stats stats.json");
+  addFile(*c, "--kernels", o->kernelFolder, "FOLDER",
+          "read kernels from here, not from the program (for developers)");
+  c->footer("Example: whittle render scene.glb -o a.png -o a.exr --stats stats.json");
   c->callback([o, &status] {
     runRender(*o);
     status = 0;

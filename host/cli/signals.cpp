@@ -42,7 +42,8 @@ void installSignals(bool clearLine) {
     sigemptyset(&action.sa_mask);
     struct sigaction before {};
     // nohup and background jobs ignore some of them: that stays so.
-    if (::sigaction(s, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) ::sigaction(s, &action, nullptr);
+    if (::sigaction(s, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+      ::sigaction(s, &action, nullptr);
   }
   std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -1,5 +1,5 @@
-// Ctrl-C, kill and a closed terminal end the program at once, except while files are being written: then they wait
-// until the files are whole. A write past a limit becomes an ordinary error.
+// Ctrl-C, kill and a closed terminal end the program at once, except while files are being written: then they
+// wait until the files are whole. A write past a limit becomes an ordinary error.
 #pragma once
 
 namespace whittle::cli {

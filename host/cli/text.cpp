@@ -27,9 +27,13 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string formatInteger(std::uint64_t count) {
-  std::string digits = std::to_string(count);
-  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3) digits.insert(static_cast<std::size_t>(at), ",");
-  return digits;
+  const std::string digits = std::to_string(count);
+  std::string out;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) out.push_back(',');
+    out.push_back(digits[i]);
+  }
+  return out;
 }
 
 std::string formatReal(double value) { return fmt::format("{:.4g}", value == 0.0 ? 0.0 : value); }
@@ -49,8 +53,8 @@ std::string formatSome(std::uint64_t count, const std::string& one, const std::s
 
 std::size_t columnsOf(const std::string& text) {
   // Continuation bytes of UTF-8 are 10xxxxxx.
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 std::string padded(const std::string& text, std::size_t columns) {
@@ -65,7 +69,8 @@ std::string wrapped(const std::string& text, std::size_t columns, std::size_t in
   while (in >> word) {
     const std::size_t width = columnsOf(word);
     if (used > 0 && used + 1 + width > columns) {
-      out += "\n" + std::string(indent, ' ');
+      out += '\n';
+      out.append(indent, ' ');
       used = 0;
     } else if (used > 0) {
       out += ' ';

@@ -31,9 +31,12 @@ FloatImage resolveFilm(const FilmSums& sums, int samples) {
   FloatImage image{sums.width, sums.height, 3, {}};
   const std::size_t pixels = static_cast<std::size_t>(sums.width) * sums.height;
   image.pixels.resize(pixels * 3);
+  const auto at = [&](std::size_t p) {
+    return static_cast<std::size_t>(sums.pixelOrder[p] >> 16) * sums.width + (sums.pixelOrder[p] & 0xffffU);
+  };
   for (std::size_t p = 0; p < pixels; ++p)
     for (int c = 0; c < 3; ++c)
-      image.pixels[p * 3 + c] = static_cast<float>(plane(sums, FILM_SUM + c, FILM_COMPENSATION + c, p) / samples);
+      image.pixels[at(p) * 3 + c] = static_cast<float>(plane(sums, FILM_SUM + c, FILM_COMPENSATION + c, p) / samples);
   return image;
 }
 

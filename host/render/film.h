@@ -1,7 +1,9 @@
 // The film on the host: compensated sums to pixels, auxiliary outputs, and the picture's own error estimate.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,9 +11,10 @@
 
 namespace whittle {
 
-/// FILM_PLANES planes of width·height floats (kernels/shared/layout.h).
+/// FILM_PLANES planes of width·height floats (kernels/shared/layout.h), pixels in the order of makePixelOrder.
 struct FilmSums {
   int width = 0, height = 0;
+  std::span<const std::uint32_t> pixelOrder;  ///< y << 16 | x
   std::vector<float> planes;
 };
 

@@ -14,8 +14,8 @@ namespace whittle {
 
 struct RenderPlan {
   SceneFeatures features;
-  std::vector<std::string> stages;    ///< kernels, in the order of their first launch
-  std::vector<BufferStats> buffers;   ///< as allocated: real sizes
+  std::vector<std::string> stages;   ///< kernels, in the order of their first launch
+  std::vector<BufferStats> buffers;  ///< as allocated: real sizes
   DeviceInfo device;
   Settings settings;  ///< as a render would use them
 };

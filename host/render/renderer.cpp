@@ -100,8 +100,10 @@ class Session {
     checkLimits(settings_);
     cameraIndex_ = findCamera(scene_, settings_.camera);
     say("opening the device");
+    const auto opening = Clock::now();
     limitCpuThreads(settings_.threads);
     compute_.emplace(selectDevice(listDevices(), settings_.device));
+    tracePhase("open the device", opening);
     if (settings_.threads > 0) tbbLimit_.emplace(tbb::global_control::max_allowed_parallelism, settings_.threads);
     const bool cpu = compute_->device().kind == "cpu";
     features_ = SceneFeatures::analyse(scene_, settings_, {cpu});
@@ -161,7 +163,8 @@ class Session {
     start = Clock::now();
     deviceScene_ = uploadScene(*compute_, scene_, tree, features_);
     const auto pixels = static_cast<std::size_t>(settings_.width) * settings_.height;
-    pixelOrder_ = compute_->upload("pixelOrder", makePixelOrder(static_cast<std::uint32_t>(settings_.width), static_cast<std::uint32_t>(settings_.height)));
+    pixelOrderTable_ = makePixelOrder(static_cast<std::uint32_t>(settings_.width), static_cast<std::uint32_t>(settings_.height));
+    pixelOrder_ = compute_->upload("pixelOrder", pixelOrderTable_);
     film_ = compute_->allocate("film", pixels * FILM_PLANES * sizeof(float));
     compute_->fillZero(film_);
     if (features_.has(Feature::AOVS)) aovs_ = compute_->allocate("aovs", pixels * AOV_PLANES * sizeof(float));
@@ -208,7 +211,7 @@ class Session {
   }
 
   FilmSums readFilm() {
-    FilmSums sums{settings_.width, settings_.height, {}};
+    FilmSums sums{settings_.width, settings_.height, pixelOrderTable_, {}};
     sums.planes.resize(static_cast<std::size_t>(settings_.width) * settings_.height * FILM_PLANES);
     compute_->read(film_, 0, sums.planes.size() * sizeof(float), sums.planes.data());
     return sums;
@@ -282,6 +285,7 @@ class Session {
   std::optional<tbb::global_control> tbbLimit_;
   std::optional<Compute> compute_;
   DeviceScene deviceScene_;
+  std::vector<std::uint32_t> pixelOrderTable_;
   Buffer pixelOrder_, film_, aovs_;
   std::optional<RayQueues> queues_;
   std::optional<StageRunner> stages_;

@@ -1,6 +1,10 @@
 // Trace Event Format: "X" is a complete event, "M" names a row; times are microseconds.
 #include "render/trace.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace whittle {
 namespace {
 
@@ -14,6 +18,9 @@ nlohmann::ordered_json trackName(Trace::Track track, const char* name) {
           {"args", {{"name", name}}}};
 }
 
+/// To the nanosecond: device clocks tell no more.
+double microseconds(double seconds) { return std::round(seconds * 1e9) * 1e-3; }
+
 nlohmann::ordered_json completeEvent(const std::string& name, const char* category, Trace::Track track,
                                      double start, double end) {
   return {{"ph", "X"},
@@ -21,8 +28,8 @@ nlohmann::ordered_json completeEvent(const std::string& name, const char* catego
           {"cat", category},
           {"pid", kProcess},
           {"tid", static_cast<int>(track)},
-          {"ts", start * 1e6},
-          {"dur", (end - start) * 1e6}};
+          {"ts", microseconds(start)},
+          {"dur", microseconds(end - start)}};
 }
 
 }  // namespace
@@ -38,7 +45,9 @@ void Trace::phase(const std::string& name, Clock::time_point start, Track track)
 }
 
 nlohmann::ordered_json Trace::toJson() const {
-  const double origin = steadySeconds(origin_);
+  double origin = std::numeric_limits<double>::infinity();
+  for (const auto& p : phases_) origin = std::min(origin, p.start);
+  for (const auto& l : launches_) origin = std::min(origin, l.start);
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
   events.push_back(
       {{"ph", "M"}, {"name", "process_name"}, {"pid", kProcess}, {"args", {{"name", "whittle"}}}});

@@ -1,5 +1,6 @@
-// What ran when, for `--trace`: one record for each kernel launch and for each phase on the host, all on the host's
-// steady clock. Written in the Trace Event Format (JSON object form) that chrome://tracing and Perfetto read.
+// What ran when, for `--trace`: one record for each kernel launch and for each phase on the host, all on the
+// host's steady clock. Written in the Trace Event Format (JSON object form) that chrome://tracing and
+// Perfetto read.
 #pragma once
 
 #include <chrono>
@@ -28,7 +29,7 @@ class Trace {
   /// From `start` to now. May be called from several threads.
   void phase(const std::string& name, Clock::time_point start, Track track = Track::Host);
 
-  /// Times count from this object's construction.
+  /// Times count from the first record.
   nlohmann::ordered_json toJson() const;
 
  private:
@@ -38,7 +39,6 @@ class Trace {
     double start, end;
   };
 
-  Clock::time_point origin_ = Clock::now();
   std::vector<Launch> launches_;
   std::vector<Phase> phases_;
   std::mutex phasesMutex_;

@@ -133,8 +133,8 @@ void Wavefront::accumulate(const Buffer& queue, Segment segment) {
 }
 
 void Wavefront::film() {
-  stages_.run("film", batch_.pixels, batch_.pixels, batch_, queues_.capacity(), setup_.camera.width,
-              setup_.camera.width * setup_.camera.height, pixelOrder_, queues_.sampleRadiance, film_, counters_);
+  stages_.run("film", batch_.pixels, batch_.pixels, batch_, queues_.capacity(),
+              setup_.camera.width * setup_.camera.height, queues_.sampleRadiance, film_, counters_);
 }
 
 std::uint32_t Wavefront::scanChunks(std::uint32_t count) {

@@ -34,10 +34,7 @@ int allLanes(int8 mask) {
   return (b.x & b.y) != 0;
 }
 
-float8 inverse8(float8 d) {
-  const float8 magnitude = fabs(d) > 1e-18f ? fabs(d) : (float8)(1e-18f);
-  return 1.0f / copysign(magnitude, d);
-}
+float8 boxInverse8(float8 d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign((float8)(INFINITY), d); }
 
 Packet makePacket(float8 ox, float8 oy, float8 oz, float8 dx, float8 dy, float8 dz) {
   Packet p;
@@ -45,7 +42,7 @@ Packet makePacket(float8 ox, float8 oy, float8 oz, float8 dx, float8 dy, float8 
   p.d[0] = dx, p.d[1] = dy, p.d[2] = dz;
   p.oneSign = 1;
   for (int a = 0; a < 3; ++a) {
-    p.inverse[a] = inverse8(p.d[a]);
+    p.inverse[a] = boxInverse8(p.d[a]);
     const int8 negative = !(p.inverse[a] >= 0.0f);
     p.nearIsHigh[a] = allLanes(negative);
     if (!p.nearIsHigh[a] && anyLane(negative)) p.oneSign = 0;
@@ -74,7 +71,7 @@ int8 childEntries(const Packet* p, __global const Node* node, int c, float8 tMax
       const float nearPlane = p->nearIsHigh[a] ? node->hi[c][a] : node->lo[c][a];
       const float farPlane = p->nearIsHigh[a] ? node->lo[c][a] : node->hi[c][a];
       const float8 near = (nearPlane - p->o[a]) * p->inverse[a];
-      const float8 far = (farPlane - p->o[a]) * p->inverse[a] * FAR_WIDENING;
+      const float8 far = (farPlane - p->o[a]) * p->inverse[a];
       enter = near > enter ? near : enter;
       leave = far < leave ? far : leave;
     }
@@ -82,14 +79,15 @@ int8 childEntries(const Packet* p, __global const Node* node, int c, float8 tMax
     for (int a = 0; a < 3; ++a) {
       const float8 lo = (node->lo[c][a] - p->o[a]) * p->inverse[a];
       const float8 hi = (node->hi[c][a] - p->o[a]) * p->inverse[a];
-      const float8 near = lo < hi ? lo : hi;
-      const float8 far = (lo < hi ? hi : lo) * FAR_WIDENING;
+      const int8 down = as_int8(p->inverse[a]);  // select reads the sign bit
+      const float8 near = select(lo, hi, down);
+      const float8 far = select(hi, lo, down);
       enter = near > enter ? near : enter;
       leave = far < leave ? far : leave;
     }
   }
   *entry = enter;
-  return enter <= leave;
+  return enter <= leave * FAR_WIDENING;
 }
 
 float8 differenceOfProducts8(float8 a, float8 b, float8 c, float8 d) {
@@ -97,6 +95,13 @@ float8 differenceOfProducts8(float8 a, float8 b, float8 c, float8 d) {
   const float8 difference = fma(a, b, -cd);
   const float8 error = fma(-c, d, cd);
   return difference + error;
+}
+
+/// Lanes with NaN or infinite parts sleep.
+float8 wakeFinite(const Packet* p, float8 tMax) {
+  int8 finite = isfinite(p->o[0]) & isfinite(p->o[1]) & isfinite(p->o[2]);
+  finite &= isfinite(p->d[0]) & isfinite(p->d[1]) & isfinite(p->d[2]);
+  return select((float8)(-1.0f), tMax, finite);
 }
 
 /// Lanes whose largest axis is kz and that meet the triangle at 0 < t <= tMax.
@@ -141,7 +146,7 @@ int8 intersectPacket(const Packet* p, __global const DeviceTriangle* triangle, f
     *b2 = select(*b2, b2k, m);
     met |= m;
   }
-  return met;
+  return anyLane(met) && !hasArea(triangle) ? (int8)(0) : met;
 }
 
 void testNearestPacket(const SceneView* scene, const Packet* p, uint index, PacketHit* best) {
@@ -203,7 +208,7 @@ int8 testOcclusionPacket(const SceneView* scene, const Packet* p, uint index, fl
 #if HAS(TREE)
 PacketHit nearestPacket(const SceneView* scene, const Packet* p, float8 tMax) {
   PacketHit best;
-  best.t = tMax;
+  best.t = wakeFinite(p, tMax);
   best.triangle = (uint8)(NO_HIT);
   best.primitive = (uint8)(NO_HIT);
   best.b1 = best.b2 = (float8)(0.0f);
@@ -240,6 +245,7 @@ PacketHit nearestPacket(const SceneView* scene, const Packet* p, float8 tMax) {
 /// stops: [3][8]. Returns the mask of blocked lanes. Lanes with tMax < 0 sleep.
 int8 occludedPacket(const SceneView* scene, const Packet* p, float8 tMax, uint* stops) {
   int8 blocked = (int8)(0);
+  tMax = wakeFinite(p, tMax);
   int stack[MAX_TREE_DEPTH + 4];
   int depth = 0;
   int current = 0;
@@ -277,7 +283,7 @@ int8 occludedPacket(const SceneView* scene, const Packet* p, float8 tMax, uint* 
 #else
 PacketHit nearestPacket(const SceneView* scene, const Packet* p, float8 tMax) {
   PacketHit best;
-  best.t = tMax;
+  best.t = wakeFinite(p, tMax);
   best.triangle = (uint8)(NO_HIT);
   best.primitive = (uint8)(NO_HIT);
   best.b1 = best.b2 = (float8)(0.0f);
@@ -287,6 +293,7 @@ PacketHit nearestPacket(const SceneView* scene, const Packet* p, float8 tMax) {
 
 int8 occludedPacket(const SceneView* scene, const Packet* p, float8 tMax, uint* stops) {
   int8 blocked = (int8)(0);
+  tMax = wakeFinite(p, tMax);
   for (uint i = 0; i < scene->triangleCount; ++i) {
     const int8 now = testOcclusionPacket(scene, p, i, tMax, stops);
     blocked |= now;

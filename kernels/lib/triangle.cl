@@ -6,7 +6,7 @@
 typedef struct {
   float o[3];
   float d[3];
-  float inverse[3];  // 1/d with |d| kept above 1e-18, for boxes only
+  float inverse[3];  // 1/d, ±inf below 1e-18; for boxes only
   int kx, ky, kz;
   float sx, sy, sz;
 } Ray;
@@ -16,9 +16,18 @@ typedef struct {
   float t, b1, b2;
 } Candidate;
 
-float boxInverse(float d) {
-  const float magnitude = fabs(d) > 1e-18f ? fabs(d) : 1e-18f;
-  return 1.0f / copysign(magnitude, d);
+float boxInverse(float d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign(INFINITY, d); }
+
+/// A ray with NaN or infinite parts meets nothing; without this test it would visit every box.
+int isFiniteRay(const Ray* r) {
+  return isFinite3((float3)(r->o[0], r->o[1], r->o[2])) && isFinite3((float3)(r->d[0], r->d[1], r->d[2]));
+}
+
+/// False for corners on one line: rounding can open such a triangle in the plane across the ray.
+int hasArea(__global const DeviceTriangle* triangle) {
+  const float3 a = load3(triangle->v[1]) - load3(triangle->v[0]), b = load3(triangle->v[2]) - load3(triangle->v[0]);
+  return differenceOfProducts(a.y, b.z, a.z, b.y) != 0.0f || differenceOfProducts(a.z, b.x, a.x, b.z) != 0.0f ||
+         differenceOfProducts(a.x, b.y, a.y, b.x) != 0.0f;
 }
 
 Ray makeRay(float3 o, float3 d) {
@@ -54,7 +63,7 @@ int intersectTriangle(const Ray* r, __global const DeviceTriangle* triangle, flo
   if (!inside) return 0;
   const float det = u + v + w;
   const float t = fma(u, az, fma(v, bz, w * cz)) * r->sz / det;
-  if (!(t > 0.0f && t <= tMax)) return 0;
+  if (!(t > 0.0f && t <= tMax) || !hasArea(triangle)) return 0;
   hit->t = t;
   hit->b1 = v / det;
   hit->b2 = w / det;

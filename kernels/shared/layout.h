@@ -163,7 +163,7 @@ WHITTLE_STRUCT(Batch) {
 #define ENTRY_IMPULSE0 2u
 #define ENTRY_IMPULSE1 4u
 
-// Film planes for each pixel: compensated sums of RGB, and of luminance squared for the error estimate.
+// Film planes for each pixel, in the pixel order: compensated sums of RGB, and of luminance squared for the error estimate.
 #define FILM_SUM 0
 #define FILM_COMPENSATION 3
 #define FILM_SQUARES 6

@@ -22,7 +22,7 @@ void buildCornellBox(GltfBuilder& scene) {
   scene.place("mirror ball", sphere, silver, {.position = {0.6, 0.5, -0.55}, .scale = 0.5});
   scene.place("glass ball", sphere, scene.addMaterial(glass("glass", 1.5)),
               {.position = {-0.1, 0.32, 0.1}, .scale = 0.32});
-  scene.addCamera("camera", {0, 1.08, 2.5}, {0, 0.88, -1}, 45);
+  scene.addCamera("camera", {0, 1.05, 2.5}, {0, 0.93, -1}, 48);
 }
 
 }  // namespace generator

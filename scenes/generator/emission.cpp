@@ -32,7 +32,7 @@ void buildEmission(GltfBuilder& scene) {
               scene.addMaterial(mirror("silver", glm::dvec3(0.93))),
               {.position = {0, 0.5, 0.4}, .scale = 0.5});
   scene.setBackground({0.012, 0.014, 0.025});
-  scene.addCamera("camera", {0, 1.6, 5.6}, {0, 0.75, 0}, 34);
+  scene.addCamera("camera", {0, 1.9, 6.4}, {0, 0.55, 0}, 36);
 }
 
 }  // namespace generator

@@ -100,7 +100,7 @@ void buildHeightField(GltfBuilder& scene, int n) {
                   .type = "directional",
                   .color = {1, 0.93, 0.8},
                   .intensity = 3.6,
-                  .position = {-6, 3.2, -1.5},
+                  .position = {-6, 4.4, -1.5},
                   .target = {0, 0, 0}});
   scene.addLight({.name = "sky",
                   .type = "directional",

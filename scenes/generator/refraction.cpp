@@ -64,7 +64,7 @@ void buildRefraction(GltfBuilder& scene) {
   green.attenuationColor = {0.25, 0.75, 0.4};
   green.attenuationDistance = 0.5;
   scene.place("wedge", scene.addGeometry(makeWedge(1.1, 1.1, 0.7)), scene.addMaterial(green),
-              {.position = {1.35, 0.02, 0.55}, .turnY = -20});
+              {.position = {1.12, 0.02, 0.45}, .turnY = -20});
   scene.addLight({.name = "key", .intensity = 60, .position = {-3, 5, 4}});
   scene.addLight({.name = "fill", .intensity = 14, .position = {3, 3, 5}, .castsShadows = false});
   scene.setBackground({0.5, 0.6, 0.75});

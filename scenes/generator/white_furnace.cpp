@@ -8,7 +8,10 @@ namespace generator {
 void buildWhiteFurnace(GltfBuilder& scene) {
   const int perfect = scene.addMaterial(mirror("perfect mirror", glm::dvec3(1)));
   const int clear = scene.addMaterial(glass("clear glass", 1.5));
-  const int sphere = scene.addGeometry(makeUnitSphere());
+  Mesh ball = makeUnitSphere();
+  ball.normals.clear();  // flat facets: with interpolated normals some light is lost where a facet turns the
+                         // other way
+  const int sphere = scene.addGeometry(std::move(ball));
   scene.place("mirror ball", sphere, perfect, {.position = {-1.5, 0, 0}, .scale = 0.7});
   scene.place("glass ball", sphere, clear, {.position = {0, 0, 0}, .scale = 0.7});
   scene.place("glass ball behind", sphere, clear, {.position = {1.1, 0.5, -1.6}, .scale = 0.5});

@@ -23,7 +23,7 @@ TEST(CompileAlone, EveryKernelFile) {
   int files = 0;
   for (const auto& [path, text] : embeddedKernelFiles()) {
     if (path.size() < 3 || path.substr(path.size() - 3) != ".cl") continue;
-    EXPECT_EQ(failureOf(compute, assembleKernelSource({path}), ""), "") << path;
+    EXPECT_EQ(failureOf(compute, assembleKernelSource({path}, test::testKernelFolder()), ""), "") << path;
     ++files;
   }
   EXPECT_GE(files, 7) << "at least the seven stages";
@@ -34,7 +34,8 @@ TEST(CompileAlone, EveryKernelFile) {
 TEST(CompileAlone, AnyFeatureWithoutAnyOther) {
   Compute compute = test::openTestDevice();
   const std::string source = assembleKernelSource(
-      {"raygen.cl", "intersect.cl", "shade.cl", "compact.cl", "occlude.cl", "accumulate.cl", "film.cl"});
+      {"raygen.cl", "intersect.cl", "shade.cl", "compact.cl", "occlude.cl", "accumulate.cl", "film.cl"},
+      test::testKernelFolder());
 #define WHITTLE_BIT(name, bit, text) bit,
   const std::vector<int> features{WHITTLE_FEATURES(WHITTLE_BIT)};
 #undef WHITTLE_BIT

@@ -67,6 +67,35 @@ TEST(Watertight, EdgeAndVertexShots) {
   }
 }
 
+/// Rays aimed at the corners and edges of triangles that have no neighbour to catch a miss: the tree must not
+/// lose what the triangle test takes, nor find what it does not.
+TEST(Watertight, TreeAndArrayAgreeAtOutermostCorners) {
+  SearchLab lab;
+  for (const float distance : {0.5F, 5.0F, 500.0F}) {
+    SCOPED_TRACE(distance);
+    const auto mesh = test::randomSoup(500, 0.05F, 15);
+    const Scene scene = test::sceneOf(mesh);
+    test::Rng rng(16);
+    std::vector<TestRay> rays;
+    for (int i = 0; i < 20001; ++i) {
+      const glm::uvec3 t = mesh.triangles[rng.bits() % mesh.triangles.size()];
+      const int corner = static_cast<int>(rng.bits() % 3);
+      const glm::vec3 a = mesh.positions[t[corner]], b = mesh.positions[t[(corner + 1) % 3]];
+      const glm::vec3 o = a + distance * rng.direction();
+      rays.push_back({o, glm::normalize(a + (i % 2 ? 0.0F : rng.unit()) * (b - a) - o)});
+    }
+    std::vector<TestHit> expected;
+    for (const SearchForm& form : kSearchForms) {
+      const auto hits = SearchBench(lab, scene, form).nearest(rays);
+      if (expected.empty()) expected = hits;
+      std::size_t different = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) different += !(hits[i] == expected[i]);
+      EXPECT_EQ(different, 0U) << form.name << " of " << rays.size();
+    }
+    EXPECT_GT(misses(expected), 1000U) << "about half of the shots at a lone corner go past it";
+  }
+}
+
 /// Unit cubes on a grid, faces split in two: every ray below runs exactly along planes, edges and corners.
 test::TriangleMesh cubeGrid(int side) {
   test::TriangleMesh mesh;

@@ -27,7 +27,8 @@ class KernelBench {
                        std::uint64_t features = kAllFeatures, int compactChunk = 1024)
       : compute(openTestDevice()),
         stages(compute,
-               compute.build(assembleKernelSource(files) + "#line 1 \"test kernels\"\n" + testKernels,
+               compute.build(assembleKernelSource(files, testKernelFolder()) + "#line 1 \"test kernels\"\n" +
+                                 testKernels,
                              buildOptions(features, compactChunk)),
                kWorkGroup) {}
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdlib>
+#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "cl/device.h"
@@ -14,6 +16,12 @@ namespace whittle::test {
 inline Compute openTestDevice() {
   const char* selector = std::getenv("WHITTLE_TEST_DEVICE");
   return Compute(selectDevice(listDevices(), selector ? selector : ""));
+}
+
+/// Where the kernels under test come from; nothing: the binary.
+inline std::optional<std::filesystem::path> testKernelFolder() {
+  const char* folder = std::getenv("WHITTLE_TEST_KERNELS");
+  return folder ? std::optional<std::filesystem::path>(folder) : std::nullopt;
 }
 
 }  // namespace whittle::test

@@ -1,0 +1,110 @@
+// Help texts: every option of the contract, once, with its default, in 80 columns, without the parser's own
+// words.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "cli/text.h"
+#include "run_whittle.h"
+
+namespace whittle::test {
+namespace {
+
+int countLinesStarting(const std::string& text, const std::string& start) {
+  std::istringstream in(text);
+  int count = 0;
+  for (std::string line; std::getline(in, line);) count += line.rfind(start, 0) == 0 ? 1 : 0;
+  return count;
+}
+
+class Help : public testing::TestWithParam<const char*> {};
+
+TEST_P(Help, FitsATerminalAndSpeaksThisProgramsWords) {
+  const std::string command = GetParam();
+  const Run run = runWhittle(command.empty() ? std::vector<std::string>{"--help"}
+                                             : std::vector<std::string>{command, "--help"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err, "");
+  std::istringstream in(run.out);
+  for (std::string line; std::getline(in, line);) EXPECT_LE(cli::columnsOf(line), 80U) << line;
+  for (const char* noise : {"REQUIRED", "TEXT", "INT", "FLOAT", "UINT", "Needs", "{", ":NONNEGATIVE"})
+    EXPECT_EQ(run.out.find(noise), std::string::npos) << noise << " in:\n" << run.out;
+  EXPECT_NE(run.out.find("Example: whittle "), std::string::npos);
+  EXPECT_NE(run.out.find("Usage: whittle"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cli, Help, testing::Values("", "render", "reference", "info", "devices", "compare"),
+                         [](const auto& info) { return std::string(*info.param ? info.param : "whittle"); });
+
+TEST(HelpOfRender, ShowsEachOptionOnceWithItsDefault) {
+  const std::string text = runWhittle({"render", "--help"}).out;
+  for (const char* option : {"--width",
+                             "--height",
+                             "--camera",
+                             "--exposure",
+                             "--bounces",
+                             "--rays-per-pixel",
+                             "--shadows, --no-shadows",
+                             "--search",
+                             "--sampler",
+                             "--seed",
+                             "--impulses",
+                             "--device",
+                             "--threads",
+                             "--wavefront",
+                             "--work-group",
+                             "--bump",
+                             "--keep-all-features",
+                             "--stats",
+                             "--profile",
+                             "--trace",
+                             "--reference",
+                             "--target-error",
+                             "--time-limit",
+                             "--aov",
+                             "--quiet",
+                             "-o, --output"})
+    EXPECT_EQ(countLinesStarting(text, std::string("  ") + option), 1) << option;
+  // The defaults of scene/settings.h, as the contract's users read them.
+  for (const char* fallback :
+       {"width of the picture [640]", "height of the picture [360]", "[8]", "[random]", "[auto]", "[all]"})
+    EXPECT_NE(text.find(fallback), std::string::npos) << fallback;
+}
+
+TEST(HelpAlone, IsShortAndWrongUsage) {
+  const Run run = runWhittle({});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.out, "");
+  EXPECT_NE(run.err.find("Example: whittle render"), std::string::npos);
+  EXPECT_LE(std::count(run.err.begin(), run.err.end(), '\n'), 24) << "longer than a terminal";
+}
+
+TEST(HelpAlone, TellsItsVersion) {
+  const Run run = runWhittle({"--version"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out.rfind("whittle 0.", 0), 0U) << run.out;
+}
+
+TEST(Text, NumbersAndWords) {
+  using namespace whittle::cli;
+  EXPECT_EQ(formatInteger(0), "0");
+  EXPECT_EQ(formatInteger(999), "999");
+  EXPECT_EQ(formatInteger(1000), "1,000");
+  EXPECT_EQ(formatInteger(1234567), "1,234,567");
+  EXPECT_EQ(formatReal(-0.0), "0");
+  EXPECT_EQ(formatReal(2.0), "2");
+  EXPECT_EQ(formatSome(0, "light", "lights"), "no lights");
+  EXPECT_EQ(formatSome(1, "light", "lights"), "1 light");
+  EXPECT_EQ(formatSome(1200, "light", "lights"), "1,200 lights");
+  EXPECT_EQ(formatSeconds(0.25), "0.250 s");
+  EXPECT_EQ(formatSeconds(185.0), "3:05 min");
+  EXPECT_EQ(formatSeconds(7800.0), "2:10 h");
+  EXPECT_EQ(columnsOf("m²"), 2U);
+  EXPECT_EQ(wrapped("one two three", 7, 2), "one two\n  three");
+  EXPECT_EQ(closestWord("--widht", {"--height", "--width"}), "--width");
+  EXPECT_EQ(closestWord("frobnicate", {"render", "info"}), "");
+}
+
+}  // namespace
+}  // namespace whittle::test

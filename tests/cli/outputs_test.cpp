@@ -1,0 +1,139 @@
+// What a render leaves behind: whole files with their metadata, or nothing.
+#include <gtest/gtest.h>
+#include <OpenImageIO/imageio.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "run_whittle.h"
+#include "scene/image_io.h"
+
+namespace whittle::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(Outputs, EachFormatIsWrittenWholeAndReadable) {
+  const Folder folder;
+  const Run run = runWhittle(smallRender({"-o", "a.png", "-o", "a.exr", "--output", "a.jpg", "--aov",
+                                          "depth=d.exr", "--aov", "normal=n.exr"}),
+                             {folder.path(), {}});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(folder.names(), (Names{"a.exr", "a.jpg", "a.png", "d.exr", "n.exr"}));
+  for (const char* name : {"a.png", "a.exr", "a.jpg", "d.exr", "n.exr"}) {
+    const FloatImage image = readFloatImage(folder / name);
+    EXPECT_EQ(image.width, 32) << name;
+    EXPECT_EQ(image.height, 24) << name;
+    EXPECT_EQ(image.channels, name == std::string("d.exr") ? 1 : 3) << name;
+    EXPECT_NE(run.out.find(std::string("wrote ") + name), std::string::npos) << run.out;
+  }
+}
+
+TEST(Outputs, WithoutAnyThePictureIsNamedAfterTheScene) {
+  const Folder folder;
+  const Run run = runWhittle(smallRender({}), {folder.path(), {}});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(folder.names(), Names{"cornell_box.png"});
+}
+
+TEST(Outputs, ExrCarriesSettingsAndRayCounts) {
+  const Folder folder;
+  ASSERT_EQ(
+      runWhittle(smallRender({"-o", "a.exr", "--bounces", "3", "--stats", "s.json"}), {folder.path(), {}})
+          .status,
+      0);
+  const auto input = OIIO::ImageInput::open((folder / "a.exr").string());
+  ASSERT_TRUE(input);
+  const auto settings = nlohmann::json::parse(input->spec().get_string_attribute("whittle:settings"));
+  EXPECT_EQ(settings["bounces"], 3);
+  EXPECT_EQ(settings["width"], 32);
+  EXPECT_EQ(input->spec().get_string_attribute("whittle:scene"), "cornell_box.glb");
+  const auto rays = readJson(folder / "s.json")["rays"];
+  const auto expected = "primary " + rays["primary"].dump() + " impulse " + rays["impulse"].dump() +
+                        " shadow " + rays["shadow"].dump();
+  EXPECT_EQ(input->spec().get_string_attribute("whittle:rays"), expected);
+  EXPECT_GE(std::stod(input->spec().get_string_attribute("whittle:renderSeconds")), 0.0);
+}
+
+TEST(Outputs, ReferenceWritesTheSameKinds) {
+  const Folder folder;
+  const Run run = runWhittle({"reference", scene(), "--width", "8", "--height", "6", "-o", "r.exr", "-o",
+                              "r.png", "--aov", "primitive=p.exr", "--stats", "s.json"},
+                             {folder.path(), {}});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(folder.names(), (Names{"p.exr", "r.exr", "r.png", "s.json"}));
+  EXPECT_EQ(readJson(folder / "s.json")["rays"]["primary"], 48);  // 8·6
+}
+
+TEST(Outputs, QuietPrintsNothing) {
+  const Folder folder;
+  const Run run = runWhittle(smallRender({"-o", "a.png", "--quiet"}), {folder.path(), {}});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err, "");
+}
+
+TEST(Outputs, AwayFromATerminalThereIsNoProgressAndNoDriverNoise) {
+  const Folder folder;
+  const Run run = runWhittle(smallRender({"-o", "a.png"}), {folder.path(), {}});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(run.out.find('\r'), std::string::npos);
+  EXPECT_EQ(run.out.find('\033'), std::string::npos);
+}
+
+/// A file-size limit of 512 bytes stands in for a full disk: the write of the picture fails, later than all
+/// checks.
+TEST(Outputs, ADiskThatFillsUpLeavesTheOldPictureAndNothingElse) {
+  const Folder folder;
+  ASSERT_EQ(runWhittle(smallRender({"-o", "a.exr"}), {folder.path(), {}}).status,
+            0);  // kernels are compiled from here on
+  const std::string before = readText(folder / "a.exr");
+  const Run run = runShell(
+      "ulimit -f 1; exec \"$WHITTLE\" render " + scene() + " --width 32 --height 24 --seed 1 -o a.exr",
+      {folder.path(), {}});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("whittle: a.exr: cannot be written"), std::string::npos) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(folder.names(), Names{"a.exr"});
+  EXPECT_EQ(readText(folder / "a.exr"), before);
+}
+
+TEST(Outputs, StatisticsToAFullDeviceFail) {
+  const Folder folder;
+  const Run run = runWhittle(smallRender({"--stats", "/dev/full"}), {folder.path(), {}});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("/dev/full: cannot be written: No space left on device"), std::string::npos)
+      << run.err;
+  EXPECT_TRUE(folder.names().empty());
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full")) << "the device was replaced";
+}
+
+TEST(Outputs, StatisticsGoToStandardOutputToo) {
+  const Run run = runWhittle(smallRender({"--stats", "/dev/stdout", "--quiet"}));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out)["rays"]["primary"], 32 * 24);
+}
+
+TEST(Outputs, AFullStandardOutputIsAFailure) {
+  const Run run = runShell("\"$WHITTLE\" devices >/dev/full");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("standard output"), std::string::npos) << run.err;
+}
+
+TEST(Outputs, AnInterruptedRenderLeavesNothing) {
+  for (const int number : {SIGINT, SIGTERM}) {
+    const Folder folder;
+    // Millions of samples: minutes of work, so that the signal comes while it renders.
+    Process process(smallRender({"-o", "a.exr", "--stats", "s.json", "--rays-per-pixel", "1000000"}),
+                    {folder.path(), {}});
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    process.signal(number);
+    EXPECT_EQ(process.finish().status, -number);
+    EXPECT_TRUE(folder.names().empty());
+  }
+}
+
+}  // namespace
+}  // namespace whittle::test

@@ -1,0 +1,185 @@
+// --stats, --trace, --reference, --time-limit, --target-error: the names are a contract with scripts.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "run_whittle.h"
+
+namespace whittle::test {
+namespace {
+
+using Json = nlohmann::json;
+
+void expectKeys(const Json& object, const std::vector<const char*>& keys, const std::string& where) {
+  for (const char* key : keys) EXPECT_TRUE(object.contains(key)) << where << " has no " << key;
+}
+
+Json statsOf(const std::vector<std::string>& more) {
+  const Folder folder;
+  auto args = smallRender(more);
+  args.insert(args.end(), {"--stats", "s.json", "--quiet"});
+  const Run run = runWhittle(args, {folder.path(), {}});
+  EXPECT_EQ(run.status, 0) << run.err;
+  return readJson(folder / "s.json");
+}
+
+TEST(Stats, HoldsEveryKeyOfTheContract) {
+  const Json s = statsOf({"--rays-per-pixel", "4"});
+  expectKeys(s,
+             {"scene", "settings", "device", "features", "rays", "time", "stages", "memory", "error",
+              "biasBound", "nonFinite", "dropped"},
+             "top");
+  expectKeys(s["scene"], {"file", "triangles", "materials", "lights", "textures"}, "scene");
+  expectKeys(s["settings"],
+             {"output",       "width",   "height",    "camera",    "exposure",    "bounces",
+              "raysPerPixel", "shadows", "search",    "sampler",   "seed",        "impulses",
+              "device",       "threads", "wavefront", "workGroup", "bump",        "keepAllFeatures",
+              "stats",        "profile", "trace",     "reference", "targetError", "timeLimit",
+              "aov",          "quiet"},
+             "settings");
+  expectKeys(s["device"], {"platform", "name", "version", "driver", "computeUnits", "threads"}, "device");
+  expectKeys(s["features"], {"used", "leftOut"}, "features");
+  expectKeys(s["rays"], {"primary", "impulse", "shadow", "total"}, "rays");
+  expectKeys(s["time"], {"load", "build", "compile", "upload", "render", "write", "total"}, "time");
+  expectKeys(s["memory"], {"tree", "triangles", "queues", "textures", "film", "total"}, "memory");
+  ASSERT_FALSE(s["stages"].empty());
+  for (const auto& stage : s["stages"]) expectKeys(stage, {"name", "launches", "seconds", "items"}, "stage");
+  ASSERT_FALSE(s["error"].empty());
+  for (const auto& point : s["error"])
+    expectKeys(point, {"seconds", "raysPerPixel", "estimate", "rmse"}, "error");
+}
+
+TEST(Stats, CountsAddUp) {
+  const Json s = statsOf({"--rays-per-pixel", "4"});
+  EXPECT_EQ(s["rays"]["primary"], 32 * 24 * 4);
+  EXPECT_EQ(s["rays"]["total"], s["rays"]["primary"].get<int>() + s["rays"]["impulse"].get<int>() +
+                                    s["rays"]["shadow"].get<int>());
+  EXPECT_EQ(s["dropped"], 0);
+  EXPECT_EQ(s["nonFinite"], 0);
+  std::map<std::string, std::uint64_t> items;
+  for (const auto& stage : s["stages"]) items[stage["name"]] = stage["items"];
+  EXPECT_EQ(items["raygen"], s["rays"]["primary"]);
+  EXPECT_EQ(items["intersect"],
+            s["rays"]["primary"].get<std::uint64_t>() + s["rays"]["impulse"].get<std::uint64_t>());
+  EXPECT_EQ(items["occlude"], s["rays"]["shadow"]);
+  const auto& m = s["memory"];
+  std::uint64_t sum = 0;
+  for (const char* group : {"tree", "triangles", "queues", "textures", "film"})
+    sum += m[group].get<std::uint64_t>();
+  EXPECT_EQ(m["total"], sum);
+  double phases = 0.0;
+  for (const char* phase : {"load", "render", "write"}) phases += s["time"][phase].get<double>();
+  EXPECT_GE(s["time"]["total"].get<double>(), phases);
+}
+
+TEST(Stats, SettingsAreThoseAskedFor) {
+  const auto s = statsOf({"--no-shadows", "--bump", "0.25", "--impulses", "one", "--sampler", "sobol",
+                          "--seed", "7", "--rays-per-pixel", "2", "--search", "array"})["settings"];
+  EXPECT_EQ(s["shadows"], false);
+  EXPECT_EQ(s["bump"], 0.25);
+  EXPECT_EQ(s["impulses"], "one");
+  EXPECT_EQ(s["sampler"], "sobol");
+  EXPECT_EQ(s["seed"], 7);
+  EXPECT_EQ(s["raysPerPixel"], 2);
+  EXPECT_EQ(s["search"], "array");
+  EXPECT_EQ(s["quiet"], true);
+}
+
+TEST(Stats, TimeLimitStopsEarlyAndSaysHowFarItCame) {
+  // A limit that the first pass of one ray has passed already: the second pass must not start… but two rays
+  // give an estimate.
+  const auto s = statsOf({"--rays-per-pixel", "1048576", "--time-limit", "0.000001"});
+  EXPECT_LE(s["settings"]["raysPerPixel"], 2);
+  EXPECT_EQ(s["rays"]["primary"], 32 * 24 * s["settings"]["raysPerPixel"].get<int>());
+}
+
+TEST(Stats, TargetErrorStopsOnceTheEstimateIsBelow) {
+  const auto loose = statsOf({"--rays-per-pixel", "4096", "--target-error", "0.02"});
+  EXPECT_LT(loose["settings"]["raysPerPixel"], 4096);
+  EXPECT_LE(loose["error"].back()["estimate"], 0.02);
+  for (std::size_t i = 0; i + 1 < loose["error"].size(); ++i)
+    EXPECT_GT(loose["error"][i]["estimate"], 0.02) << "it should have stopped at point " << i;
+}
+
+TEST(Reference, TrueErrorFallsAndIsZeroAgainstThePictureItself) {
+  const Folder folder;
+  ASSERT_EQ(runWhittle(smallRender({"--rays-per-pixel", "8", "-o", "ref.exr"}), {folder.path(), {}}).status,
+            0);
+  const Run run = runWhittle(
+      smallRender({"--rays-per-pixel", "8", "--reference", "ref.exr", "--stats", "s.json", "-o", "a.exr"}),
+      {folder.path(), {}});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Json error = readJson(folder / "s.json")["error"];
+  ASSERT_EQ(error.size(), 4U);  // after 1, 2, 4 and 8 rays
+  EXPECT_TRUE(error[0]["estimate"].is_null()) << "one ray per pixel has no variance";
+  EXPECT_GT(error[0]["rmse"], error[2]["rmse"]);
+  // The same samples in the same order: passes do not change the picture's bits.
+  EXPECT_EQ(error[3]["rmse"], 0.0);
+  EXPECT_EQ(readText(folder / "a.exr").size(), readText(folder / "ref.exr").size());
+}
+
+TEST(Reference, AgreesWithCompare) {
+  const Folder folder;
+  ASSERT_EQ(
+      runWhittle(smallRender({"--rays-per-pixel", "4", "--seed", "9", "-o", "ref.exr"}), {folder.path(), {}})
+          .status,
+      0);
+  ASSERT_EQ(runWhittle(smallRender({"--rays-per-pixel", "2", "--reference", "ref.exr", "--stats", "s.json",
+                                    "-o", "a.exr"}),
+                       {folder.path(), {}})
+                .status,
+            0);
+  const Run compared = runWhittle({"compare", "a.exr", "ref.exr", "--json"}, {folder.path(), {}});
+  ASSERT_EQ(compared.status, 0) << compared.err;
+  const double rmse = readJson(folder / "s.json")["error"].back()["rmse"];
+  // Sums of 2304 squares in another order: far fewer than 1e4 roundings of 1e-16 each.
+  EXPECT_NEAR(rmse, Json::parse(compared.out)["rmse"].get<double>(), 1e-12);
+}
+
+TEST(Reference, OfAnotherSizeIsRefused) {
+  const Folder folder;
+  ASSERT_EQ(runWhittle(smallRender({"-o", "ref.exr"}), {folder.path(), {}}).status, 0);
+  const Run run = runWhittle(smallRender({"--width", "16", "--reference", "ref.exr", "-o", "a.exr"}),
+                             {folder.path(), {}});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("--reference: ref.exr is 32×24 but the picture is 16×24"), std::string::npos)
+      << run.err;
+}
+
+TEST(Trace, HasOneEventForEachLaunchWithBounceAndItems) {
+  const Folder folder;
+  ASSERT_EQ(runWhittle(smallRender({"--trace", "t.json", "--stats", "s.json"}), {folder.path(), {}}).status,
+            0);
+  const Json trace = readJson(folder / "t.json"), stats = readJson(folder / "s.json");
+  std::map<std::string, std::uint64_t> launches, items;
+  std::set<std::string> phases;
+  double end = 0.0, hostEnd = 0.0;
+  for (const auto& e : trace["traceEvents"]) {
+    if (e["ph"] != "X") continue;
+    EXPECT_GE(e["ts"].get<double>(), 0.0) << e;
+    EXPECT_GE(e["dur"].get<double>(), 0.0) << e;
+    if (e["cat"] == "phase") {
+      phases.insert(e["name"]);
+      hostEnd = std::max(hostEnd, e["ts"].get<double>() + e["dur"].get<double>());
+      continue;
+    }
+    end = std::max(end, e["ts"].get<double>() + e["dur"].get<double>());
+    ++launches[e["name"]];
+    items[e["name"]] += e["args"]["items"].get<std::uint64_t>();
+    const int bounce = e["args"]["bounce"];
+    EXPECT_EQ(bounce == 0, e["name"] == "raygen" || e["name"] == "film") << e;
+    EXPECT_LE(bounce, 8) << e;
+  }
+  for (const auto& stage : stats["stages"]) {
+    EXPECT_EQ(launches[stage["name"]], stage["launches"]) << stage["name"];
+    EXPECT_EQ(items[stage["name"]], stage["items"]) << stage["name"];
+  }
+  for (const char* phase : {"load", "build tree", "compile kernels", "upload", "render"})
+    EXPECT_TRUE(phases.contains(phase)) << phase;
+  // One clock for both: the last kernel ends before the host writes (1 ms for the clocks' tie).
+  EXPECT_LE(end, hostEnd + 1e3);
+}
+
+}  // namespace
+}  // namespace whittle::test

@@ -1,0 +1,128 @@
+// Wrong usage and unusable input: status 2, nothing on standard output, one line that names the culprit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "run_whittle.h"
+
+namespace whittle::test {
+namespace {
+
+struct Mistake {
+  const char* name;
+  std::vector<std::string> args;
+  std::vector<std::string> mentions;  ///< the culprit and the way out
+};
+
+class Usage : public testing::TestWithParam<Mistake> {};
+
+TEST_P(Usage, IsStatusTwoAndOneLineThatNamesTheCulprit) {
+  const Folder folder;  // nothing may be written to it
+  const Run run = runWhittle(GetParam().args, {folder.path(), {}});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_EQ(run.err.rfind("whittle: ", 0), 0U) << run.err;
+  for (const auto& word : GetParam().mentions)
+    EXPECT_NE(run.err.find(word), std::string::npos) << "no '" << word << "' in: " << run.err;
+  EXPECT_TRUE(folder.names().empty());
+}
+
+std::vector<Mistake> mistakes() {
+  const std::string s = scene();
+  return {
+      {"UnknownCommand", {"rendr", s}, {"rendr", "'render'", "whittle --help"}},
+      {"OptionBeforeCommand", {"--quiet", "render", s}, {"--quiet", "command comes first"}},
+      {"UnknownOption", {"render", s, "--widht", "3"}, {"--widht", "'--width'", "whittle render --help"}},
+      {"UnknownOptionOfInfo", {"info", s, "--frobnicate"}, {"--frobnicate", "whittle info --help"}},
+      {"OneArgumentTooMany", {"render", s, "more.glb"}, {"more.glb"}},
+      {"NoScene", {"render"}, {"SCENE"}},
+      {"MissingFile", {"render", "nope.glb", "-o", "a.png"}, {"nope.glb"}},
+      {"FolderAsScene", {"render", WHITTLE_SCENES, "-o", "a.png"}, {WHITTLE_SCENES, "folder"}},
+      {"FolderAsOutput", {"render", s, "-o", "."}, {"--output", "."}},
+      {"MissingOutputFolder",
+       {"render", s, "-o", "nope/a.png"},
+       {"--output", "nope/a.png", "does not exist"}},
+      {"UnknownExtension", {"render", s, "-o", "a.gif"}, {"--output", "a.gif", ".png"}},
+      {"WidthZero", {"render", s, "--width", "0"}, {"--width", "'0'", "1 to 65535"}},
+      {"WidthNoNumber", {"render", s, "--width", "12px"}, {"--width", "'12px'"}},
+      {"WidthMissing", {"render", s, "--width"}, {"--width", "value is missing"}},
+      {"BouncesTooMany", {"render", s, "--bounces", "99999999999999999999"}, {"--bounces", "1 to 4096"}},
+      {"SeedNegative", {"render", s, "--seed", "-1"}, {"--seed", "'-1'"}},
+      {"ExposureNan", {"render", s, "--exposure", "nan"}, {"--exposure", "'nan'"}},
+      {"BumpNegative", {"render", s, "--bump", "-1"}, {"--bump", "'-1'"}},
+      {"TimeLimitWord", {"render", s, "--time-limit", "soon"}, {"--time-limit", "'soon'"}},
+      {"SamplerUnknown",
+       {"render", s, "--sampler", "halton"},
+       {"--sampler", "'halton'", "random|stratified|sobol"}},
+      {"FlagWithValue", {"render", s, "--quiet=often"}, {"--quiet", "no value"}},
+      {"CameraUnknown", {"render", s, "--camera", "nope", "-o", "a.png"}, {"--camera", "'nope'", "it has 0"}},
+      {"CameraUnknownToInfo", {"info", s, "--camera", "7"}, {"--camera", "'7'", "it has 0"}},
+      {"DeviceUnknown",
+       {"render", s, "--device", "nope", "-o", "a.png"},
+       {"--device", "'nope'", "whittle devices"}},
+      {"WorkGroupTooLarge",
+       {"render", s, "--work-group", "65536", "-o", "a.png"},
+       {"--work-group", "at most"}},
+      {"AovWithoutFile", {"render", s, "--aov", "depth"}, {"--aov", "'depth'", "NAME=FILE"}},
+      {"AovUnknown",
+       {"render", s, "--aov", "colour=a.exr"},
+       {"--aov", "colour", "depth, normal, albedo, primitive"}},
+      {"AovNotExr", {"render", s, "--aov", "depth=a.png"}, {"--aov", "a.png", ".exr"}},
+      {"AovUnknownToReference",
+       {"reference", s, "-o", "a.exr", "--aov", "normal=b.exr"},
+       {"--aov", "depth, primitive"}},
+      {"StatsInMissingFolder", {"render", s, "--stats", "nope/a.json"}, {"--stats", "nope/a.json"}},
+      {"TraceInMissingFolder", {"render", s, "--trace", "nope/a.json"}, {"--trace", "nope/a.json"}},
+      {"OneFileForTwo",
+       {"render", s, "-o", "a.exr", "--aov", "depth=./a.exr"},
+       {"--aov", "./a.exr", "two outputs"}},
+      {"OutputIsInput", {"render", s, "--stats", s}, {"--stats", s, "input"}},
+      {"ReferenceMissing",
+       {"render", s, "--reference", "nope.exr", "-o", "a.png"},
+       {"--reference", "nope.exr"}},
+      {"KernelsMissing", {"render", s, "--kernels", "nope", "-o", "a.png"}, {"--kernels", "nope"}},
+      {"BackgroundUnreadable", {"render", s, "--background", "1,2", "-o", "a.png"}, {"--background", "1,2"}},
+      {"BackgroundNegative", {"info", s, "--background=-1,0,0"}, {"--background", "-1,0,0"}},
+      {"SceneOfFileUnknown", {"info", s, "--scene", "nope"}, {"nope"}},
+      {"CompareMissing", {"compare", "a.exr", "b.exr"}, {"a.exr"}},
+      {"CompareOne", {"compare", "a.exr"}, {"B"}},
+      {"ReferenceWithoutOutput", {"reference", s}, {"--output"}},
+  };
+}
+
+INSTANTIATE_TEST_SUITE_P(Cli, Usage, testing::ValuesIn(mistakes()),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(UsageOfFiles, APipeIsNoScene) {
+  const Folder folder;
+  // The opener of a pipe waits for its other end: `sleep` holds that, in case the program opens it.
+  const Run run = runShell(
+      "mkfifo scene.glb; (sleep 20 >scene.glb) & \"$WHITTLE\" render scene.glb -o a.png; s=$?; kill $!; exit "
+      "$s",
+      {folder.path(), {}});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("scene.glb: is not a regular file"), std::string::npos) << run.err;
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.glb"});
+}
+
+TEST(UsageOfFiles, GarbageIsNoScene) {
+  const Folder folder;
+  std::ofstream(folder / "scene.glb") << "no glTF at all";
+  const Run run = runWhittle({"render", "scene.glb"}, {folder.path(), {}});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("scene.glb"), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+TEST(UsageOfOptions, TheLastValueCounts) {
+  const Folder folder;
+  const Run run =
+      runWhittle(smallRender({"--width", "16", "--stats", "s.json", "--quiet"}), {folder.path(), {}});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(readJson(folder / "s.json")["settings"]["width"], 16);
+}
+
+}  // namespace
+}  // namespace whittle::test

@@ -1,0 +1,204 @@
+// Mirrors and glass on the device against their formulas: specular furnace, series between mirrors and in a slab,
+// refraction, total reflection, grazing light, absorption.
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "single_rays.h"
+
+namespace whittle::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// Fresnel's equations as printed in optics books: angles, not cosines.
+double fresnel(double angle, double eta) {
+  const double refracted = std::asin(std::sin(angle) / eta);
+  if (angle < 1e-9) return std::pow((1 - eta) / (1 + eta), 2);
+  const double s = std::sin(angle - refracted) / std::sin(angle + refracted);
+  const double p = std::tan(angle - refracted) / std::tan(angle + refracted);
+  return (s * s + p * p) / 2;
+}
+
+TEST(DeviceFurnace, NothingIsBrighterAndNearlyAllIsWhite) {
+  constexpr int kBounces = 12;
+  const RenderResult result = render(ownScene("white_furnace"), smallSettings(kBounces));
+  std::size_t white = 0;
+  for (const float v : result.radiance.pixels) {
+    ASSERT_LE(v, 1 + 2e-6 * kBounces);
+    white += std::abs(v - 1) <= 2e-6 * kBounces;
+  }
+  // Grazing light in the balls and what total reflection holds in the block leave later than at the last bounce.
+  EXPECT_GT(double(white), 0.9 * double(result.radiance.pixels.size()));
+  EXPECT_GT(result.stats.rays.impulse, 20000U);
+}
+
+TEST(DeviceFurnace, PlatesAndMirrorsAreInvisible) {
+  Scene scene;
+  scene.background.radiance = glm::vec3(1);
+  const float tilt = 0.4F;
+  addFloor(scene, glass(1.5F, true), 1, true, 40);
+  addFloor(scene, glass(1.5F, true), 0, false, 40);
+  addQuad(scene, addMaterial(scene, mirror(glm::vec3(1))), {-40, -3, -40}, {0, 0, 80}, {80, 80 * tilt, 0});
+  for (const int bounces : {16, 32}) {
+    for (const double x : {0.0, 0.5, 1.0}) {
+      const glm::vec3 seen = shot(scene, {-20, 5, 0}, {x, -1, 0.1}, bounces);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], 1, 2e-6 * bounces) << "x " << x << " bounces " << bounces;
+    }
+  }
+}
+
+TEST(DeviceMirrors, TwoFacingEachOtherAreAGeometricSeries) {
+  constexpr double kRho = 0.75, kEmission = 2;  // exact in single precision
+  Material material = mirror(glm::vec3(kRho));
+  material.emission = glm::vec3(kEmission);
+  Scene scene;
+  addFloor(scene, material, 0, true);
+  addFloor(scene, material, 1, false);
+  for (const int reflections : {0, 1, 2, 7, 63}) {
+    const double series = kEmission * (1 - std::pow(kRho, reflections + 1)) / (1 - kRho);
+    const glm::vec3 seen = shot(scene, {0.1, 0.5, 0.2}, {0, 1, 0}, reflections + 1);
+    EXPECT_NEAR(seen.x, series, 1e-6 * std::max(1, reflections)) << reflections;
+  }
+}
+
+TEST(DeviceMirrors, WhatUnderflowsIsNotTracedOn) {
+  Scene scene;
+  addFloor(scene, mirror(glm::vec3(1e-3F)), 0, true);
+  addFloor(scene, mirror(glm::vec3(1e-3F)), 1, false);
+  const RenderResult result = shoot(scene, {0.1, 0.5, 0.2}, {0, 1, 0}, 64);
+  EXPECT_EQ(colorOf(result), glm::vec3(0));
+  // 1e-3^15 is the last power above half of the smallest subnormal, 2^-149 = 1.4e-45.
+  EXPECT_LE(result.stats.rays.impulse, 15U);
+  EXPECT_GE(result.stats.rays.impulse, 12U) << "1e-36 is still a number";
+}
+
+/// A slab of `material` between y = 0 and −1; what comes from above is red, from below green, 1 each.
+Scene slabScene(const Material& material) {
+  Scene scene;
+  addFloor(scene, material, 0, true);
+  addFloor(scene, material, -1, false);
+  addFloor(scene, emitter({1, 0, 0}), 10, false);
+  addFloor(scene, emitter({0, 1, 0}), -10);
+  return scene;
+}
+
+TEST(DeviceSlab, SeriesAtEachDepth) {
+  const Scene scene = slabScene(glass(1.5F, true));
+  const double r = 0.04, t = 0.96;
+  double reflected = 0, transmitted = 0;
+  for (int depth = 1; depth <= 10; ++depth) {
+    if (depth == 2) reflected += r;
+    if (depth >= 4 && depth % 2 == 0) reflected += t * t * std::pow(r, depth - 3);
+    if (depth >= 3 && depth % 2 == 1) transmitted += t * t * std::pow(r, depth - 3);
+    const glm::vec3 seen = shot(scene, {0.1, 5, 0.2}, {0, -1, 0}, depth);
+    EXPECT_NEAR(seen.x, reflected, 1e-6) << depth;
+    EXPECT_NEAR(seen.y, transmitted, 1e-6) << depth;
+  }
+  EXPECT_NEAR(reflected, 0.076923, 1e-6);
+  EXPECT_NEAR(transmitted, 0.923077, 1e-6);
+}
+
+/// A slab of glass over an unlit ground at −`depth` whose red says where it is: x = 8 red/green − 4.
+Scene rulerScene(float depth) {
+  Scene scene;
+  addFloor(scene, glass(1.5F, true), 0, true);
+  addFloor(scene, glass(1.5F, true), -1, false);
+  Material ruler;
+  ruler.unlit = true;
+  addQuad(scene, addMaterial(scene, ruler), {-4, -depth, -4}, {0, 0, 8}, {8, 0, 0});
+  scene.colors.assign(scene.positions.size(), glm::vec4(1));
+  for (std::size_t v = scene.positions.size() - 4; v < scene.positions.size(); ++v)
+    scene.colors[v] = {(scene.positions[v].x + 4) / 8, 1, 0, 1};
+  return scene;
+}
+
+TEST(DeviceSlab, ShiftsALightRayAt45DegreesAndKeepsItsDirection) {
+  const auto metX = [](float depth) {
+    const glm::vec3 seen = shot(rulerScene(depth), {-4, 1, 0.3}, {1, -1, 0}, 3);
+    return 8 * static_cast<double>(seen.x / seen.y) - 4;
+  };
+  const double shallow = metX(2), deep = metX(5);
+  // The undisturbed ray meets the ground at −3 + depth. Rounding: 8 m in single precision, 1e-6.
+  EXPECT_NEAR((-3 + 2 - shallow) * std::sqrt(0.5), 0.329142, 3e-6);
+  EXPECT_NEAR(deep - shallow, 3, 3e-6) << "parallel to the entry";
+}
+
+TEST(DeviceSlab, GlassThatEqualsAirIsInvisible) {
+  for (const glm::dvec3& w : {glm::dvec3(0, -1, 0), glm::dvec3(1, -1, 0), glm::dvec3(3, -1, 0.5)}) {
+    for (const float ior : {1.0F, std::nextafter(1.0F, 0.0F), std::nextafter(1.0F, 2.0F)}) {
+      const glm::vec3 seen = shot(slabScene(glass(ior, true)), {0, 1, 0}, w, 8);
+      EXPECT_NEAR(seen.x, 0, 1e-6) << ior;
+      EXPECT_NEAR(seen.y, 1, 1e-6) << ior;
+    }
+  }
+}
+
+TEST(DeviceSlab, AbsorbsByBeersLaw) {
+  for (const float sigma : {0.0F, 1e-30F, 1.0F, 3.5F, 1e30F, std::numeric_limits<float>::infinity()}) {
+    Material tinted = glass(1, true);
+    tinted.sigma_a = glm::vec3(sigma, 0, sigma);
+    Scene scene = slabScene(tinted);
+    scene.materials.back().emission = glm::vec3(1);
+    const glm::vec3 seen = shot(scene, {0, 1, 0}, {1, -1, 0}, 8);
+    EXPECT_NEAR(seen.x, std::exp(-sigma * std::sqrt(2.0)), 2e-6) << sigma;  // the bump shortens the way by 1e-6 m
+    EXPECT_EQ(seen.y, 1) << sigma;
+  }
+}
+
+/// Light seen reflected in the surface of a solid at y = 0: its share, times nothing else.
+double reflectedShare(float ior, const glm::dvec3& origin, const glm::dvec3& direction) {
+  Scene scene;
+  addFloor(scene, glass(ior, true), 0);
+  // What is reflected stays on the side of the origin; the lamp stands there alone.
+  const bool above = origin.y > 0;
+  const float height = above ? 60.0F : -60.0F;
+  const std::uint32_t lamp = addMaterial(scene, emitter(glm::vec3(1)));
+  addQuad(scene, lamp, {40, 0, -50}, {0, 0, 100}, {0, height, 0});
+  addQuad(scene, lamp, {-40, height, -50}, {0, 0, 100}, {80, 0, 0});
+  return shot(scene, origin, direction, 2).x;
+}
+
+TEST(DeviceFresnel, Brewster) {
+  const double angle = std::atan(1.5);
+  EXPECT_NEAR(angle / kDegree, 56.3099, 5e-5);
+  EXPECT_NEAR(reflectedShare(1.5F, {0, 1, 0}, {std::sin(angle), -std::cos(angle), 0}), 0.0739645, 5e-7);
+}
+
+TEST(DeviceFresnel, GlassInWater) {
+  EXPECT_NEAR(reflectedShare(1.5F / 1.33F, {0, 1, 0}, {0, -1, 0}), 0.0036085, 2e-7);
+}
+
+TEST(DeviceFresnel, RisesToTotalReflectionAtTheCriticalAngle) {
+  const double critical = std::asin(1 / 1.5);
+  EXPECT_NEAR(critical / kDegree, 41.8103, 5e-5);
+  double last = 0;
+  for (int k = 1; k <= 6; ++k) {
+    const double away = std::pow(10.0, -k);
+    const auto inside = [&](double angle) {
+      return reflectedShare(1.5F, {0, -0.5, 0}, {std::sin(angle), std::cos(angle), 0});
+    };
+    const double below = inside(critical - away);
+    // R = 1 − O(√away): an angle rounded by 1e-7 moves it by 1e-6/√away.
+    EXPECT_NEAR(below, fresnel(critical - away, 1 / 1.5), 1e-6 + 2e-6 / std::sqrt(away)) << k;
+    EXPECT_GT(below, last) << k;
+    EXPECT_EQ(inside(critical + away), 1) << k;
+    last = below;
+  }
+  EXPECT_LE(last, 1);
+}
+
+TEST(DeviceFresnel, GrazingLightIsReflectedAndNeverMoreThanAll) {
+  double last = 0;
+  for (int k = 0; k <= 4; ++k) {
+    const double grazing = std::pow(10.0, -k) * kDegree;
+    const double r = reflectedShare(1.5F, {-20, 20 * std::tan(grazing), 0}, {std::cos(grazing), -std::sin(grazing), 0});
+    EXPECT_LE(r, 1) << k;
+    EXPECT_GT(r, last) << k;
+    EXPECT_NEAR(r, fresnel(std::numbers::pi / 2 - grazing, 1.5), 2e-6) << k;
+    last = r;
+  }
+}
+
+}  // namespace
+}  // namespace whittle::test

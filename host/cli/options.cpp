@@ -75,6 +75,7 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
           {"R,G,B|FILE",
            "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr",
            "as the file says"});
+  c.add_flag("--default-lights", o.defaultLights, "add a sun and a fill light to a file that has no lights but glows");
 }
 
 void addPictureOptions(CLI::App& c, Settings& s) {
@@ -125,6 +126,7 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
 Scene loadScene(const SceneOptions& options, Notices& notices) {
   LoadOptions load;
   if (!options.scene.empty()) load.sceneName = options.scene;
+  load.defaultLights = options.defaultLights;
   Scene scene = loadGltf(options.file, load, notices);
   applyBackground(scene, options.background);
   for (const auto& text : notices.warnings) fmt::print(stderr, "warning: {}\n", text);

@@ -88,6 +88,12 @@ bool hasEmitters(const Scene& scene) {
   return false;
 }
 
+/// Some triangle would look different under a light.
+bool hasLitSurfaces(const Scene& scene) {
+  return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                     [&](const Triangle& t) { return !scene.materials[t.material].unlit; });
+}
+
 Light directional(const char* name, const glm::vec3& direction, const glm::vec3& irradiance,
                   bool castsShadows) {
   Light light;
@@ -101,13 +107,18 @@ Light directional(const char* name, const glm::vec3& direction, const glm::vec3&
 
 }  // namespace
 
-void addDefaults(Scene& scene, Notices& notices) {
+void addDefaults(Scene& scene, Notices& notices, bool lightEmitters) {
   if (scene.cameras.empty()) {
     scene.cameras.push_back(framingCamera(scene));
     notices.note("no camera in the file: one was added that frames the scene");
   }
   const bool isBlack = scene.background.map.empty() && scene.background.radiance == glm::vec3(0.0F);
-  if (!scene.lights.empty() || !isBlack || hasEmitters(scene)) return;
+  if (!scene.lights.empty() || !isBlack) return;
+  if (!lightEmitters && hasEmitters(scene)) {
+    if (hasLitSurfaces(scene))
+      notices.note("no light in the file, only surfaces that glow, and those light nothing: --default-lights adds a sun");
+    return;
+  }
   const Camera& eye = scene.cameras.front();
   // The sun stands behind the camera, to the left and above; the fill light to the right, where the sun casts
   // shadows.

@@ -12,6 +12,7 @@ namespace whittle {
 
 struct LoadOptions {
   std::optional<std::string> sceneName;  ///< name or index; default: the file's default scene, else the first
+  bool defaultLights = false;            ///< add the default lights to a file that has emitters but no lights
 };
 
 /// Reads `path`. Throws InputError with one line if it cannot be used; says in `notices` what was ignored or
@@ -19,7 +20,8 @@ struct LoadOptions {
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices);
 
 /// A camera that frames the scene where it has none; a sun with shadows plus a fill light without, and a dim
-/// constant background, where it has neither lights nor emitters nor a background. Both are noted.
-void addDefaults(Scene& scene, Notices& notices);
+/// constant background, where it has neither lights nor emitters nor a background. Both are noted. `lightEmitters`: a
+/// file with emitters gets the lights too; without it a note says that emitters alone light nothing.
+void addDefaults(Scene& scene, Notices& notices, bool lightEmitters = false);
 
 }  // namespace whittle

@@ -22,8 +22,8 @@ class Help : public testing::TestWithParam<const char*> {};
 
 TEST_P(Help, FitsATerminalAndSpeaksThisProgramsWords) {
   const std::string command = GetParam();
-  const Run run = runWhittle(command.empty() ? std::vector<std::string>{"--help"}
-                                             : std::vector<std::string>{command, "--help"});
+  const Outcome run = runWhittle(command.empty() ? std::vector<std::string>{"--help"}
+                                                 : std::vector<std::string>{command, "--help"});
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.err, "");
   std::istringstream in(run.out);
@@ -35,7 +35,7 @@ TEST_P(Help, FitsATerminalAndSpeaksThisProgramsWords) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cli, Help, testing::Values("", "render", "reference", "info", "devices", "compare"),
-                         [](const auto& info) { return std::string(*info.param ? info.param : "whittle"); });
+                         [](const auto& of) { return std::string(*of.param ? of.param : "whittle"); });
 
 TEST(HelpOfRender, ShowsEachOptionOnceWithItsDefault) {
   const std::string text = runWhittle({"render", "--help"}).out;
@@ -73,7 +73,7 @@ TEST(HelpOfRender, ShowsEachOptionOnceWithItsDefault) {
 }
 
 TEST(HelpAlone, IsShortAndWrongUsage) {
-  const Run run = runWhittle({});
+  const Outcome run = runWhittle({});
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.out, "");
   EXPECT_NE(run.err.find("Example: whittle render"), std::string::npos);
@@ -81,7 +81,7 @@ TEST(HelpAlone, IsShortAndWrongUsage) {
 }
 
 TEST(HelpAlone, TellsItsVersion) {
-  const Run run = runWhittle({"--version"});
+  const Outcome run = runWhittle({"--version"});
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.out.rfind("whittle 0.", 0), 0U) << run.out;
 }

@@ -16,9 +16,9 @@ using Names = std::vector<std::string>;
 
 TEST(Outputs, EachFormatIsWrittenWholeAndReadable) {
   const Folder folder;
-  const Run run = runWhittle(smallRender({"-o", "a.png", "-o", "a.exr", "--output", "a.jpg", "--aov",
-                                          "depth=d.exr", "--aov", "normal=n.exr"}),
-                             {folder.path(), {}});
+  const Outcome run = runWhittle(smallRender({"-o", "a.png", "-o", "a.exr", "--output", "a.jpg", "--aov",
+                                              "depth=d.exr", "--aov", "normal=n.exr"}),
+                                 {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(folder.names(), (Names{"a.exr", "a.jpg", "a.png", "d.exr", "n.exr"}));
   for (const char* name : {"a.png", "a.exr", "a.jpg", "d.exr", "n.exr"}) {
@@ -32,7 +32,7 @@ TEST(Outputs, EachFormatIsWrittenWholeAndReadable) {
 
 TEST(Outputs, WithoutAnyThePictureIsNamedAfterTheScene) {
   const Folder folder;
-  const Run run = runWhittle(smallRender({}), {folder.path(), {}});
+  const Outcome run = runWhittle(smallRender({}), {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(folder.names(), Names{"cornell_box.png"});
 }
@@ -58,9 +58,9 @@ TEST(Outputs, ExrCarriesSettingsAndRayCounts) {
 
 TEST(Outputs, ReferenceWritesTheSameKinds) {
   const Folder folder;
-  const Run run = runWhittle({"reference", scene(), "--width", "8", "--height", "6", "-o", "r.exr", "-o",
-                              "r.png", "--aov", "primitive=p.exr", "--stats", "s.json"},
-                             {folder.path(), {}});
+  const Outcome run = runWhittle({"reference", scene(), "--width", "8", "--height", "6", "-o", "r.exr", "-o",
+                                  "r.png", "--aov", "primitive=p.exr", "--stats", "s.json"},
+                                 {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(folder.names(), (Names{"p.exr", "r.exr", "r.png", "s.json"}));
   EXPECT_EQ(readJson(folder / "s.json")["rays"]["primary"], 48);  // 8·6
@@ -68,7 +68,7 @@ TEST(Outputs, ReferenceWritesTheSameKinds) {
 
 TEST(Outputs, QuietPrintsNothing) {
   const Folder folder;
-  const Run run = runWhittle(smallRender({"-o", "a.png", "--quiet"}), {folder.path(), {}});
+  const Outcome run = runWhittle(smallRender({"-o", "a.png", "--quiet"}), {folder.path(), {}});
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(run.err, "");
@@ -76,7 +76,7 @@ TEST(Outputs, QuietPrintsNothing) {
 
 TEST(Outputs, AwayFromATerminalThereIsNoProgressAndNoDriverNoise) {
   const Folder folder;
-  const Run run = runWhittle(smallRender({"-o", "a.png"}), {folder.path(), {}});
+  const Outcome run = runWhittle(smallRender({"-o", "a.png"}), {folder.path(), {}});
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.err, "");
   EXPECT_EQ(run.out.find('\r'), std::string::npos);
@@ -90,7 +90,7 @@ TEST(Outputs, ADiskThatFillsUpLeavesTheOldPictureAndNothingElse) {
   ASSERT_EQ(runWhittle(smallRender({"-o", "a.exr"}), {folder.path(), {}}).status,
             0);  // kernels are compiled from here on
   const std::string before = readText(folder / "a.exr");
-  const Run run = runShell(
+  const Outcome run = runShell(
       "ulimit -f 1; exec \"$WHITTLE\" render " + scene() + " --width 32 --height 24 --seed 1 -o a.exr",
       {folder.path(), {}});
   EXPECT_EQ(run.status, 1);
@@ -102,7 +102,7 @@ TEST(Outputs, ADiskThatFillsUpLeavesTheOldPictureAndNothingElse) {
 
 TEST(Outputs, StatisticsToAFullDeviceFail) {
   const Folder folder;
-  const Run run = runWhittle(smallRender({"--stats", "/dev/full"}), {folder.path(), {}});
+  const Outcome run = runWhittle(smallRender({"--stats", "/dev/full"}), {folder.path(), {}});
   EXPECT_EQ(run.status, 1);
   EXPECT_NE(run.err.find("/dev/full: cannot be written: No space left on device"), std::string::npos)
       << run.err;
@@ -111,13 +111,13 @@ TEST(Outputs, StatisticsToAFullDeviceFail) {
 }
 
 TEST(Outputs, StatisticsGoToStandardOutputToo) {
-  const Run run = runWhittle(smallRender({"--stats", "/dev/stdout", "--quiet"}));
+  const Outcome run = runWhittle(smallRender({"--stats", "/dev/stdout", "--quiet"}));
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out)["rays"]["primary"], 32 * 24);
 }
 
 TEST(Outputs, AFullStandardOutputIsAFailure) {
-  const Run run = runShell("\"$WHITTLE\" devices >/dev/full");
+  const Outcome run = runShell("\"$WHITTLE\" devices >/dev/full");
   EXPECT_EQ(run.status, 1);
   EXPECT_NE(run.err.find("standard output"), std::string::npos) << run.err;
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "run_whittle.h"
@@ -16,13 +17,13 @@ using Json = nlohmann::json;
 Json infoOf(const std::vector<std::string>& args) {
   std::vector<std::string> all{"info", "--json"};
   all.insert(all.end(), args.begin(), args.end());
-  const Run run = runWhittle(all);
+  const Outcome run = runWhittle(all);
   EXPECT_EQ(run.status, 0) << run.err;
   return Json::parse(run.out);
 }
 
 TEST(Info, TextHasItsSections) {
-  const Run run = runWhittle({"info", scene()});
+  const Outcome run = runWhittle({"info", scene()});
   ASSERT_EQ(run.status, 0) << run.err;
   for (const char* part : {"What is in it", "Needed", "Left out", "Stages that will run", "Buffers on ",
                            "1 camera", "2 lights", "perspective", "no texture images"})
@@ -51,7 +52,7 @@ TEST_P(Plan, IsWhatARenderDoes) {
   const Json info = infoOf(args);
   args.insert(args.begin(), "render");
   args.insert(args.end(), {"--stats", "s.json", "--quiet"});
-  const Run run = runWhittle(args, {folder.path(), {}});
+  const Outcome run = runWhittle(args, {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
   const Json stats = readJson(folder / "s.json");
   std::set<std::string> planned, launched;
@@ -61,8 +62,12 @@ TEST_P(Plan, IsWhatARenderDoes) {
   // A stage of an empty queue is planned and not launched; these always have entries.
   for (const char* name : {"raygen", "intersect", "shade", "accumulate", "film"})
     EXPECT_TRUE(planned.contains(name) && launched.contains(name)) << name;
-  if (!planned.contains("occlude")) EXPECT_EQ(stats["rays"]["shadow"], 0);
-  if (!planned.contains("compact_impulse")) EXPECT_EQ(stats["rays"]["impulse"], 0);
+  if (!planned.contains("occlude")) {
+    EXPECT_EQ(stats["rays"]["shadow"], 0);
+  }
+  if (!planned.contains("compact_impulse")) {
+    EXPECT_EQ(stats["rays"]["impulse"], 0);
+  }
   std::map<std::string, std::uint64_t> bytes;
   for (const auto& b : info["buffers"]) bytes[b["name"]] = b["bytes"];
   for (const auto& b : stats["memory"]["buffers"]) {
@@ -82,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Cli, Plan,
                                          std::vector<std::string>{scene("spot_cone.glb")}));
 
 TEST(Devices, JsonListsThem) {
-  const Run run = runWhittle({"devices", "--json"});
+  const Outcome run = runWhittle({"devices", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const Json json = Json::parse(run.out);
   ASSERT_TRUE(json["devices"].is_array());
@@ -102,20 +107,20 @@ class WithoutDevice : public testing::Test {
                            {{"OCL_ICD_VENDORS", folder.path().string() + "/"}, {"OCL_ICD_FILENAMES", ""}}};
 
   void SetUp() override {
-    const Run run = runWhittle({"devices", "--json"}, options);
+    const Outcome run = runWhittle({"devices", "--json"}, options);
     if (run.status == 0 && !Json::parse(run.out)["devices"].empty())
       GTEST_SKIP() << "this OpenCL loader ignores OCL_ICD_VENDORS";
   }
 };
 
 TEST_F(WithoutDevice, DevicesSaysWhatToInstall) {
-  const Run run = runWhittle({"devices"}, options);
+  const Outcome run = runWhittle({"devices"}, options);
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.out.find("apt install pocl-opencl-icd"), std::string::npos) << run.out;
 }
 
 TEST_F(WithoutDevice, RenderFailsWithoutBlamingTheUser) {
-  const Run run = runWhittle(smallRender({"-o", "a.png"}), options);
+  const Outcome run = runWhittle(smallRender({"-o", "a.png"}), options);
   EXPECT_EQ(run.status, 1);
   EXPECT_NE(run.err.find("no OpenCL device"), std::string::npos) << run.err;
   EXPECT_TRUE(folder.names().empty());
@@ -124,7 +129,7 @@ TEST_F(WithoutDevice, RenderFailsWithoutBlamingTheUser) {
 TEST_F(WithoutDevice, ReferenceAndInfoStillWork) {
   EXPECT_EQ(
       runWhittle({"reference", scene(), "--width", "4", "--height", "4", "-o", "r.png"}, options).status, 0);
-  const Run run = runWhittle({"info", scene(), "--json"}, options);
+  const Outcome run = runWhittle({"info", scene(), "--json"}, options);
   ASSERT_EQ(run.status, 0) << run.err;
   const Json info = Json::parse(run.out);
   EXPECT_TRUE(info["buffers"].is_null());
@@ -141,7 +146,7 @@ TEST(Compare, KnowsTheNumbersOfFlatPictures) {
   const Folder folder;
   writeExr(folder / "a.exr", constant(4, 4, 3, 0.5F), {});
   writeExr(folder / "b.exr", constant(4, 4, 3, 0.25F), {});
-  const Run run = runWhittle({"compare", "a.exr", "b.exr", "--json"}, {folder.path(), {}});
+  const Outcome run = runWhittle({"compare", "a.exr", "b.exr", "--json"}, {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
   const Json json = Json::parse(run.out);
   EXPECT_EQ(json["rmse"], 0.25);
@@ -161,7 +166,7 @@ TEST(Compare, OtherSizesAreStatusOne) {
   writeExr(folder / "b.exr", constant(4, 5, 3, 0.5F), {});
   writeExr(folder / "c.exr", constant(4, 4, 1, 0.5F), {});
   for (const char* other : {"b.exr", "c.exr"}) {
-    const Run run = runWhittle({"compare", "a.exr", other, "--json"}, {folder.path(), {}});
+    const Outcome run = runWhittle({"compare", "a.exr", other, "--json"}, {folder.path(), {}});
     EXPECT_EQ(run.status, 1);
     EXPECT_EQ(run.out, "");
     EXPECT_NE(run.err.find("a.exr"), std::string::npos) << run.err;
@@ -173,7 +178,7 @@ TEST(Compare, AlphaIsNoColour) {
   const Folder folder;
   writeExr(folder / "a.exr", constant(4, 4, 4, 0.5F), {});
   writeExr(folder / "b.exr", constant(4, 4, 3, 0.5F), {});
-  const Run run = runWhittle({"compare", "a.exr", "b.exr", "--json"}, {folder.path(), {}});
+  const Outcome run = runWhittle({"compare", "a.exr", "b.exr", "--json"}, {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(Json::parse(run.out)["rmse"], 0.0);
 }
@@ -184,7 +189,7 @@ TEST(Compare, NotANumberIsNullInJson) {
   a.pixels[5] = std::numeric_limits<float>::quiet_NaN();
   writeExr(folder / "a.exr", a, {});
   writeExr(folder / "b.exr", constant(4, 4, 3, 0.5F), {});
-  const Run run = runWhittle({"compare", "a.exr", "b.exr", "--json"}, {folder.path(), {}});
+  const Outcome run = runWhittle({"compare", "a.exr", "b.exr", "--json"}, {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
   const Json json = Json::parse(run.out);
   EXPECT_TRUE(json["rmse"].is_null());

@@ -29,7 +29,7 @@ namespace {
 }
 
 /// Empties both pipes together, so that neither fills up and stops the program.
-void drain(int out, int err, Run& run) {
+void drain(int out, int err, Outcome& run) {
   std::array<pollfd, 2> fds{{{out, POLLIN, 0}, {err, POLLIN, 0}}};
   std::array<std::string*, 2> texts{&run.out, &run.err};
   for (int open = 2; open > 0;) {
@@ -61,8 +61,8 @@ pid_t start(const std::vector<std::string>& args, const RunOptions& options, int
   return pid;
 }
 
-Run wait(pid_t pid, int out, int err) {
-  Run run;
+Outcome wait(pid_t pid, int out, int err) {
+  Outcome run;
   drain(out, err, run);
   ::close(out);
   ::close(err);
@@ -82,9 +82,9 @@ Process::Process(const std::vector<std::string>& args, const RunOptions& options
 
 void Process::signal(int number) const { ::kill(pid_, number); }
 
-Run Process::finish() { return wait(pid_, out_, err_); }
+Outcome Process::finish() { return wait(pid_, out_, err_); }
 
-Run runShell(const std::string& script, const RunOptions& options) {
+Outcome runShell(const std::string& script, const RunOptions& options) {
   RunOptions withProgram = options;
   withProgram.env.emplace_back("WHITTLE", WHITTLE_BINARY);
   int out = -1, err = -1;

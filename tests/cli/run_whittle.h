@@ -12,7 +12,7 @@
 
 namespace whittle::test {
 
-struct Run {
+struct Outcome {
   int status = -1;  ///< exit status; -signal where one ended it
   std::string out, err;
 };
@@ -28,18 +28,18 @@ class Process {
   explicit Process(const std::vector<std::string>& args, const RunOptions& options = {});
   void signal(int number) const;
   /// Reads both streams to their ends and waits.
-  Run finish();
+  Outcome finish();
 
  private:
   pid_t pid_ = -1;
   int out_ = -1, err_ = -1;
 };
 
-inline Run runWhittle(const std::vector<std::string>& args, const RunOptions& options = {}) {
+inline Outcome runWhittle(const std::vector<std::string>& args, const RunOptions& options = {}) {
   return Process(args, options).finish();
 }
 /// `sh -c SCRIPT` with $WHITTLE set.
-Run runShell(const std::string& script, const RunOptions& options = {});
+Outcome runShell(const std::string& script, const RunOptions& options = {});
 
 inline std::string scene(const std::string& name = "cornell_box.glb") {
   return std::string(WHITTLE_SCENES "/") + name;

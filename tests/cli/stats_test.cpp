@@ -19,7 +19,7 @@ Json statsOf(const std::vector<std::string>& more) {
   const Folder folder;
   auto args = smallRender(more);
   args.insert(args.end(), {"--stats", "s.json", "--quiet"});
-  const Run run = runWhittle(args, {folder.path(), {}});
+  const Outcome run = runWhittle(args, {folder.path(), {}});
   EXPECT_EQ(run.status, 0) << run.err;
   return readJson(folder / "s.json");
 }
@@ -106,7 +106,7 @@ TEST(Reference, TrueErrorFallsAndIsZeroAgainstThePictureItself) {
   const Folder folder;
   ASSERT_EQ(runWhittle(smallRender({"--rays-per-pixel", "8", "-o", "ref.exr"}), {folder.path(), {}}).status,
             0);
-  const Run run = runWhittle(
+  const Outcome run = runWhittle(
       smallRender({"--rays-per-pixel", "8", "--reference", "ref.exr", "--stats", "s.json", "-o", "a.exr"}),
       {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
@@ -130,7 +130,7 @@ TEST(Reference, AgreesWithCompare) {
                        {folder.path(), {}})
                 .status,
             0);
-  const Run compared = runWhittle({"compare", "a.exr", "ref.exr", "--json"}, {folder.path(), {}});
+  const Outcome compared = runWhittle({"compare", "a.exr", "ref.exr", "--json"}, {folder.path(), {}});
   ASSERT_EQ(compared.status, 0) << compared.err;
   const double rmse = readJson(folder / "s.json")["error"].back()["rmse"];
   // Sums of 2304 squares in another order: far fewer than 1e4 roundings of 1e-16 each.
@@ -140,8 +140,8 @@ TEST(Reference, AgreesWithCompare) {
 TEST(Reference, OfAnotherSizeIsRefused) {
   const Folder folder;
   ASSERT_EQ(runWhittle(smallRender({"-o", "ref.exr"}), {folder.path(), {}}).status, 0);
-  const Run run = runWhittle(smallRender({"--width", "16", "--reference", "ref.exr", "-o", "a.exr"}),
-                             {folder.path(), {}});
+  const Outcome run = runWhittle(smallRender({"--width", "16", "--reference", "ref.exr", "-o", "a.exr"}),
+                                 {folder.path(), {}});
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.err.find("--reference: ref.exr is 32×24 but the picture is 16×24"), std::string::npos)
       << run.err;

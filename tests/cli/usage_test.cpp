@@ -19,7 +19,7 @@ class Usage : public testing::TestWithParam<Mistake> {};
 
 TEST_P(Usage, IsStatusTwoAndOneLineThatNamesTheCulprit) {
   const Folder folder;  // nothing may be written to it
-  const Run run = runWhittle(GetParam().args, {folder.path(), {}});
+  const Outcome run = runWhittle(GetParam().args, {folder.path(), {}});
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
@@ -93,12 +93,12 @@ std::vector<Mistake> mistakes() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cli, Usage, testing::ValuesIn(mistakes()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& of) { return std::string(of.param.name); });
 
 TEST(UsageOfFiles, APipeIsNoScene) {
   const Folder folder;
   // The opener of a pipe waits for its other end: `sleep` holds that, in case the program opens it.
-  const Run run = runShell(
+  const Outcome run = runShell(
       "mkfifo scene.glb; (sleep 20 >scene.glb) & \"$WHITTLE\" render scene.glb -o a.png; s=$?; kill $!; exit "
       "$s",
       {folder.path(), {}});
@@ -110,7 +110,7 @@ TEST(UsageOfFiles, APipeIsNoScene) {
 TEST(UsageOfFiles, GarbageIsNoScene) {
   const Folder folder;
   std::ofstream(folder / "scene.glb") << "no glTF at all";
-  const Run run = runWhittle({"render", "scene.glb"}, {folder.path(), {}});
+  const Outcome run = runWhittle({"render", "scene.glb"}, {folder.path(), {}});
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.err.find("scene.glb"), std::string::npos) << run.err;
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
@@ -118,7 +118,7 @@ TEST(UsageOfFiles, GarbageIsNoScene) {
 
 TEST(UsageOfOptions, TheLastValueCounts) {
   const Folder folder;
-  const Run run =
+  const Outcome run =
       runWhittle(smallRender({"--width", "16", "--stats", "s.json", "--quiet"}), {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(readJson(folder / "s.json")["settings"]["width"], 16);

@@ -216,13 +216,14 @@ TEST(GltfDefaults, EveryBoxIsFramed) {
 }
 
 TEST(GltfDefaults, LightsAreAddedOnlyWhereNothingShines) {
-  const auto lightsWith = [](const Json& material, const Json& extras) {
+  const auto lightsWith = [](const Json& material, const Json& extras, bool always = false) {
     GltfBuilder b;
     b.material(material);
     b.node({{"mesh", b.triangleMesh({{"material", 0}})}});
     b.json["scenes"][0]["extras"] = extras;
-    return b.load();
+    return b.load({.sceneName = {}, .defaultLights = always});
   };
+  EXPECT_EQ(lightsWith({{"emissiveFactor", {0, 1, 0}}}, Json::object(), true).lights.size(), 2U) << "asked for";
   EXPECT_EQ(lightsWith(Json::object(), Json::object()).lights.size(), 2U);
   EXPECT_EQ(lightsWith({{"emissiveFactor", {0, 1, 0}}}, Json::object()).lights.size(), 0U);
   EXPECT_EQ(

@@ -13,7 +13,8 @@ namespace whittle {
 namespace {
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -29,7 +30,8 @@ std::string whyUnusable(const cl::Device& device) {
   if (!device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>()) return "it has no kernel compiler";
   if (!device.getInfo<CL_DEVICE_ENDIAN_LITTLE>()) return "it is big-endian";
   const auto version = device.getInfo<CL_DEVICE_VERSION>();  // "OpenCL 1.2 …"
-  if (version.rfind("OpenCL 1.0", 0) == 0 || version.rfind("OpenCL 1.1", 0) == 0) return "it knows only " + version;
+  if (version.rfind("OpenCL 1.0", 0) == 0 || version.rfind("OpenCL 1.1", 0) == 0)
+    return "it knows only " + version;
   return {};
 }
 
@@ -66,7 +68,8 @@ void listPlatform(const cl::Platform& platform, DeviceList& list) {
     }
     if (devices.empty()) list.problems.push_back(name + ": no device");
   } catch (const cl::Error& e) {
-    list.problems.push_back(name + (e.err() == CL_DEVICE_NOT_FOUND ? ": no device" : ": " + clErrorName(e.err())));
+    list.problems.push_back(name +
+                            (e.err() == CL_DEVICE_NOT_FOUND ? ": no device" : ": " + clErrorName(e.err())));
   }
 }
 
@@ -78,7 +81,8 @@ const DeviceInfo* find(const DeviceList& list, const std::string& selector) {
   const std::string wanted = lower(selector);
   const DeviceInfo* first = nullptr;
   for (const auto& d : list.devices) {
-    const bool matches = wanted.empty() || d.kind == wanted || lower(d.name).find(wanted) != std::string::npos ||
+    const bool matches = wanted.empty() || d.kind == wanted ||
+                         lower(d.name).find(wanted) != std::string::npos ||
                          lower(d.platform).find(wanted) != std::string::npos;
     if (!matches) continue;
     if (wanted.empty() && d.usable && d.kind == "cpu") return &d;
@@ -95,7 +99,8 @@ DeviceList listDevices() {
   try {
     cl::Platform::get(&platforms);
   } catch (const cl::Error& e) {
-    list.problems.push_back("no OpenCL platform (" + clErrorName(e.err()) + "); install one, for instance PoCL");
+    list.problems.push_back("no OpenCL platform (" + clErrorName(e.err()) +
+                            "); install one, for instance PoCL");
   }
   for (const auto& platform : platforms) listPlatform(platform, list);
   for (std::size_t i = 0; i < list.devices.size(); ++i) list.devices[i].index = static_cast<int>(i);
@@ -105,10 +110,12 @@ DeviceList listDevices() {
 DeviceInfo selectDevice(const DeviceList& list, const std::string& selector) {
   const DeviceInfo* found = find(list, selector);
   if (!found) {
-    const std::string what = selector.empty() ? "no OpenCL device" : "no OpenCL device matches '" + selector + "'";
+    const std::string what =
+        selector.empty() ? "no OpenCL device" : "no OpenCL device matches '" + selector + "'";
     throw std::invalid_argument("--device: " + what + "; `whittle devices` lists what is there");
   }
-  if (!found->usable) throw std::invalid_argument("--device: " + found->name + " cannot be used: " + found->reason);
+  if (!found->usable)
+    throw std::invalid_argument("--device: " + found->name + " cannot be used: " + found->reason);
   return *found;
 }
 

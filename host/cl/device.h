@@ -30,8 +30,8 @@ struct DeviceList {
 /// Asks every platform; a broken one becomes a line in `problems`, never an exception.
 DeviceList listDevices();
 
-/// Chooses by index, part of a name (any case), or cpu|gpu; empty: the first usable CPU, else the first usable.
-/// Throws InputError-like std::invalid_argument with one line if there is none.
+/// Chooses by index, part of a name (any case), or cpu|gpu; empty: the first usable CPU, else the first
+/// usable. Throws InputError-like std::invalid_argument with one line if there is none.
 DeviceInfo selectDevice(const DeviceList& list, const std::string& selector);
 
 /// Limits PoCL to `threads` CPU threads; works only before the first OpenCL call of the process. 0: no limit.

@@ -40,7 +40,8 @@ class Assembler {
       return {std::istreambuf_iterator<char>(in), {}};
     }
     const auto found = embeddedKernelFiles().find(path);
-    if (found == embeddedKernelFiles().end()) throw std::runtime_error("no kernel file " + path + " in this binary");
+    if (found == embeddedKernelFiles().end())
+      throw std::runtime_error("no kernel file " + path + " in this binary");
     return found->second;
   }
 

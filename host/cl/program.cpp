@@ -23,8 +23,8 @@ Compute::Compute(DeviceInfo device) : device_(std::move(device)) {
 Buffer Compute::allocate(const std::string& name, std::size_t bytes) {
   if (bytes == 0) return {};
   if (bytes > device_.largestBuffer)
-    throw ClError(fmt::format("buffer '{}' needs {} but {} allows {} in one allocation", name, formatBytes(bytes), device_.name,
-                              formatBytes(device_.largestBuffer)));
+    throw ClError(fmt::format("buffer '{}' needs {} but {} allows {} in one allocation", name,
+                              formatBytes(bytes), device_.name, formatBytes(device_.largestBuffer)));
   return clTry(fmt::format("allocating buffer '{}' of {}", name, formatBytes(bytes)), [&] {
     return Buffer{name, bytes, cl::Buffer(context_, CL_MEM_READ_WRITE, bytes)};
   });
@@ -33,7 +33,8 @@ Buffer Compute::allocate(const std::string& name, std::size_t bytes) {
 Buffer Compute::upload(const std::string& name, const void* data, std::size_t bytes) {
   Buffer buffer = allocate(name, bytes);
   if (buffer)
-    clTry(fmt::format("uploading '{}'", name), [&] { queue_.enqueueWriteBuffer(buffer.handle, CL_TRUE, 0, bytes, data); });
+    clTry(fmt::format("uploading '{}'", name),
+          [&] { queue_.enqueueWriteBuffer(buffer.handle, CL_TRUE, 0, bytes, data); });
   return buffer;
 }
 
@@ -45,8 +46,9 @@ void Compute::read(const Buffer& buffer, std::size_t offset, std::size_t bytes, 
 
 void Compute::fillZero(const Buffer& buffer) {
   if (!buffer) return;
-  clTry(fmt::format("clearing '{}'", buffer.name),
-        [&] { queue_.enqueueFillBuffer(buffer.handle, cl_uint{0}, 0, buffer.bytes / sizeof(cl_uint) * sizeof(cl_uint)); });
+  clTry(fmt::format("clearing '{}'", buffer.name), [&] {
+    queue_.enqueueFillBuffer(buffer.handle, cl_uint{0}, 0, buffer.bytes / sizeof(cl_uint) * sizeof(cl_uint));
+  });
 }
 
 cl::Program Compute::build(const std::string& source, const std::string& options) {
@@ -56,8 +58,10 @@ cl::Program Compute::build(const std::string& source, const std::string& options
       program.build({device_.device}, options.c_str());
     } catch (const cl::Error& e) {
       std::string log;
-      if (e.err() == CL_BUILD_PROGRAM_FAILURE) log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.device);
-      throw ClError(fmt::format("compiling the kernels on {} ({}) failed with {}:\n{}", device_.name, options, clErrorName(e.err()), log));
+      if (e.err() == CL_BUILD_PROGRAM_FAILURE)
+        log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.device);
+      throw ClError(fmt::format("compiling the kernels on {} ({}) failed with {}:\n{}", device_.name, options,
+                                clErrorName(e.err()), log));
     }
     buildLog_ = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.device);
     return program;

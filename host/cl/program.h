@@ -11,7 +11,8 @@
 
 namespace whittle {
 
-/// Device memory with a name, for messages and statistics. An empty one is passed to kernels as a null pointer.
+/// Device memory with a name, for messages and statistics. An empty one is passed to kernels as a null
+/// pointer.
 struct Buffer {
   std::string name;
   std::size_t bytes = 0;
@@ -40,7 +41,8 @@ class Compute {
   void read(const Buffer& buffer, std::size_t offset, std::size_t bytes, void* out);
   void fillZero(const Buffer& buffer);
 
-  /// Builds `source`; a failure throws ClError with the build log. Warnings of the compiler are kept in buildLog().
+  /// Builds `source`; a failure throws ClError with the build log. Warnings of the compiler are kept in
+  /// buildLog().
   cl::Program build(const std::string& source, const std::string& options);
   const std::string& buildLog() const { return buildLog_; }
 

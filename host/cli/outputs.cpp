@@ -63,7 +63,8 @@ AovOutput parseAov(const std::string& text, const std::vector<std::string>& name
 void OutputCheck::claim(const std::string& option, const fs::path& file) {
   const auto same = [&](const fs::path& other) {
     std::error_code error;
-    return fs::weakly_canonical(other, error) == fs::weakly_canonical(file, error);
+    return fs::weakly_canonical(fs::absolute(other, error), error) ==
+           fs::weakly_canonical(fs::absolute(file, error), error);
   };
   if (isStream(file)) return;
   if (same(used_.front()))

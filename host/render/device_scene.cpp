@@ -61,7 +61,8 @@ class TextureAtlas {
 
 static_assert(static_cast<int>(Wrap::Repeat) == WRAP_REPEAT && static_cast<int>(Wrap::Clamp) == WRAP_CLAMP &&
               static_cast<int>(Wrap::Mirror) == WRAP_MIRROR);
-static_assert(static_cast<int>(LightKind::Point) == LIGHT_POINT && static_cast<int>(LightKind::Directional) == LIGHT_DIRECTIONAL &&
+static_assert(static_cast<int>(LightKind::Point) == LIGHT_POINT &&
+              static_cast<int>(LightKind::Directional) == LIGHT_DIRECTIONAL &&
               static_cast<int>(LightKind::Spot) == LIGHT_SPOT);
 
 void copy3(float* out, const glm::vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
@@ -79,8 +80,10 @@ device::DeviceMaterial toDevice(const Material& m, TextureAtlas& atlas) {
   d.ior = m.ior;
   d.alphaCutoff = m.alphaCutoff;
   d.normalScale = m.normalScale;
-  d.flags = (m.unlit ? MATERIAL_UNLIT : 0U) | (m.volume ? MATERIAL_VOLUME : 0U) | (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0U) |
-            (m.alphaMode == AlphaMode::Mask ? MATERIAL_MASK : 0U) | (m.alphaMode == AlphaMode::Blend ? MATERIAL_BLEND : 0U);
+  d.flags = (m.unlit ? MATERIAL_UNLIT : 0U) | (m.volume ? MATERIAL_VOLUME : 0U) |
+            (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0U) |
+            (m.alphaMode == AlphaMode::Mask ? MATERIAL_MASK : 0U) |
+            (m.alphaMode == AlphaMode::Blend ? MATERIAL_BLEND : 0U);
   d.baseColorTexture = atlas.add(m.baseColorTexture);
   d.metallicRoughnessTexture = atlas.add(m.metallicRoughnessTexture);
   d.normalTexture = atlas.add(m.normalTexture);
@@ -97,7 +100,8 @@ std::uint32_t triangleFlags(const Material& m) {
 }
 
 /// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
-std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene, const std::vector<std::uint32_t>& order) {
+std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene,
+                                                  const std::vector<std::uint32_t>& order) {
   std::vector<device::DeviceTriangle> out(order.size() + 1);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Triangle& t = scene.triangles[order[i]];
@@ -125,7 +129,8 @@ std::vector<float> srgbTable() {
   std::vector<float> table(256);
   for (int i = 0; i < 256; ++i) {
     const double s = i / 255.0;
-    table[static_cast<std::size_t>(i)] = static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+    table[static_cast<std::size_t>(i)] =
+        static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
   }
   return table;
 }
@@ -153,7 +158,8 @@ std::vector<device::DeviceLight> lightsToDevice(const Scene& scene) {
 
 std::string groupOf(const std::string& name) {
   if (name == "nodes") return "tree";
-  if (name == "textures" || name == "texels" || name == "linearFromSrgb" || name == "background") return "textures";
+  if (name == "textures" || name == "texels" || name == "linearFromSrgb" || name == "background")
+    return "textures";
   return "triangles";
 }
 
@@ -164,7 +170,8 @@ void DeviceScene::report(std::vector<BufferStats>& out) const {
     if (*b) out.push_back({b->name, groupOf(b->name), b->bytes});
 }
 
-DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tree, const SceneFeatures& features) {
+DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tree,
+                        const SceneFeatures& features) {
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
   if (features.has(Feature::TREE)) d.nodes = compute.upload("nodes", withSentinels(tree));
@@ -172,7 +179,8 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tre
   std::vector<std::uint32_t> corners;
   corners.reserve(scene.triangles.size() * 3 + 3);
   for (const auto& t : scene.triangles) corners.insert(corners.end(), {t.v0, t.v1, t.v2});
-  const bool interpolates = features.has(Feature::VERTEX_NORMALS) || features.has(Feature::TEXTURES) || features.has(Feature::VERTEX_COLORS);
+  const bool interpolates = features.has(Feature::VERTEX_NORMALS) || features.has(Feature::TEXTURES) ||
+                            features.has(Feature::VERTEX_COLORS);
   if (corners.empty()) corners.resize(3);
   if (interpolates) d.corners = compute.upload("corners", corners);
   if (features.has(Feature::VERTEX_NORMALS)) d.normals = compute.upload("normals", scene.normals);
@@ -193,7 +201,8 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tre
   const auto lights = lightsToDevice(scene);
   d.lightCount = static_cast<std::uint32_t>(lights.size());
   d.lights = compute.upload("lights", lights);
-  if (features.has(Feature::BACKGROUND_MAP)) d.background = compute.upload("background", scene.background.map);
+  if (features.has(Feature::BACKGROUND_MAP))
+    d.background = compute.upload("background", scene.background.map);
   return d;
 }
 

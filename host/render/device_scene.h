@@ -1,4 +1,5 @@
-// The scene on the device: only the buffers its features need. A buffer that is left out is a null pointer there.
+// The scene on the device: only the buffers its features need. A buffer that is left out is a null pointer
+// there.
 #pragma once
 
 #include <vector>
@@ -13,19 +14,20 @@ namespace whittle {
 
 struct DeviceScene {
   // In the order of SCENE_PARAMS (kernels/lib/scene.cl).
-  Buffer nodes, triangles, corners, normals, tangents, uv0, uv1, colors, materials, textures, texels, linearFromSrgb, lights,
-      background;
+  Buffer nodes, triangles, corners, normals, tangents, uv0, uv1, colors, materials, textures, texels,
+      linearFromSrgb, lights, background;
   std::uint32_t triangleCount = 0;  ///< not counting the degenerate sentinel at the end
   std::uint32_t lightCount = 0;
 
   std::vector<const Buffer*> buffers() const {
-    return {&nodes,     &triangles, &corners,  &normals, &tangents,       &uv0,    &uv1,
-            &colors,    &materials, &textures, &texels,  &linearFromSrgb, &lights, &background};
+    return {&nodes,  &triangles, &corners,  &normals, &tangents,       &uv0,    &uv1,
+            &colors, &materials, &textures, &texels,  &linearFromSrgb, &lights, &background};
   }
   void report(std::vector<BufferStats>& out) const;
 };
 
 /// Uploads what `features` needs. Throws ClError naming the buffer that does not fit.
-DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tree, const SceneFeatures& features);
+DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tree,
+                        const SceneFeatures& features);
 
 }  // namespace whittle

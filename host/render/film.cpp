@@ -36,7 +36,8 @@ FloatImage resolveFilm(const FilmSums& sums, int samples) {
   };
   for (std::size_t p = 0; p < pixels; ++p)
     for (int c = 0; c < 3; ++c)
-      image.pixels[at(p) * 3 + c] = static_cast<float>(plane(sums, FILM_SUM + c, FILM_COMPENSATION + c, p) / samples);
+      image.pixels[at(p) * 3 + c] =
+          static_cast<float>(plane(sums, FILM_SUM + c, FILM_COMPENSATION + c, p) / samples);
   return image;
 }
 
@@ -44,7 +45,8 @@ double estimateError(const FilmSums& sums, int samples) {
   const std::size_t pixels = static_cast<std::size_t>(sums.width) * sums.height;
   double total = 0.0;
   for (std::size_t p = 0; p < pixels; ++p) {
-    const double r = plane(sums, FILM_SUM, FILM_COMPENSATION, p), g = plane(sums, FILM_SUM + 1, FILM_COMPENSATION + 1, p),
+    const double r = plane(sums, FILM_SUM, FILM_COMPENSATION, p),
+                 g = plane(sums, FILM_SUM + 1, FILM_COMPENSATION + 1, p),
                  b = plane(sums, FILM_SUM + 2, FILM_COMPENSATION + 2, p);
     const double mean = (0.2126 * r + 0.7152 * g + 0.0722 * b) / samples;
     const double squares = plane(sums, FILM_SQUARES, FILM_SQUARES_COMPENSATION, p) / samples;

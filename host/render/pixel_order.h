@@ -1,5 +1,5 @@
-// The order in which pixels enter the queues: small tiles along a space-filling curve, so that neighbours in the queue
-// are neighbours in the picture and a packet of eight rays is a 4×2 tile.
+// The order in which pixels enter the queues: small tiles along a space-filling curve, so that neighbours in
+// the queue are neighbours in the picture and a packet of eight rays is a 4×2 tile.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,8 @@
 
 namespace whittle {
 
-/// y << 16 | x for each pixel, once each. Sides up to 65535. Tiles of 4×2 pixels along a Morton curve (Morton 1966).
+/// y << 16 | x for each pixel, once each. Sides up to 65535. Tiles of 4×2 pixels along a Morton curve (Morton
+/// 1966).
 std::vector<std::uint32_t> makePixelOrder(std::uint32_t width, std::uint32_t height);
 
 }  // namespace whittle

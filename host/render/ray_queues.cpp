@@ -8,10 +8,14 @@
 
 namespace whittle {
 
-RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity, std::uint32_t compactChunk)
-    : compute_(compute), capacity_(capacity), segmentLimit_(features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity) {
-  // A packet reads up to seven entries past its segment (into the next plane, or the padding) and ignores them. It
-  // writes whole groups of eight from entry 0, which stay inside a plane because the capacity is a multiple of eight.
+RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity,
+                     std::uint32_t compactChunk)
+    : compute_(compute),
+      capacity_(capacity),
+      segmentLimit_(features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity) {
+  // A packet reads up to seven entries past its segment (into the next plane, or the padding) and ignores
+  // them. It writes whole groups of eight from entry 0, which stay inside a plane because the capacity is a
+  // multiple of eight.
   assert(capacity % 8 == 0);
   const auto planes = [&](const char* name, std::size_t count) {
     return compute.allocate(name, (count * capacity + QUEUE_PADDING) * sizeof(float));
@@ -33,7 +37,8 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
 Buffer RayQueues::acquire() {
   if (free_.empty()) {
     ++queuesMade_;
-    return compute_.allocate("rays", (static_cast<std::size_t>(RAY_PLANES) * capacity_ + QUEUE_PADDING) * sizeof(float));
+    return compute_.allocate(
+        "rays", (static_cast<std::size_t>(RAY_PLANES) * capacity_ + QUEUE_PADDING) * sizeof(float));
   }
   Buffer queue = std::move(free_.back());
   free_.pop_back();
@@ -46,7 +51,8 @@ void RayQueues::reserve(std::size_t count) {
   for (auto& queue : taken) release(std::move(queue));
 }
 
-std::vector<std::uint32_t> RayQueues::readSlots(const Buffer& queue, std::uint32_t begin, std::uint32_t count) const {
+std::vector<std::uint32_t> RayQueues::readSlots(const Buffer& queue, std::uint32_t begin,
+                                                std::uint32_t count) const {
   std::vector<std::uint32_t> slots(count);
   const std::size_t offset = (static_cast<std::size_t>(RAY_SLOT) * capacity_ + begin) * sizeof(std::uint32_t);
   compute_.read(queue, offset, count * sizeof(std::uint32_t), slots.data());
@@ -85,7 +91,8 @@ std::vector<Segment> RayQueues::cutLongRuns(const std::vector<std::uint32_t>& sl
       begin = run;
     }
     if (isLong) {
-      for (; begin < runEnd; begin = segments.back().end) segments.push_back({begin, std::min(begin + LONG_RUN, runEnd)});
+      for (; begin < runEnd; begin = segments.back().end)
+        segments.push_back({begin, std::min(begin + LONG_RUN, runEnd)});
     }
     run = runEnd;
   }
@@ -94,7 +101,8 @@ std::vector<Segment> RayQueues::cutLongRuns(const std::vector<std::uint32_t>& sl
 }
 
 void RayQueues::report(std::vector<BufferStats>& out) const {
-  for (const Buffer* b : {&hits, &entryRadiance, &sampleRadiance, &shadows, &shadowQueue, &impulses, &flags, &totals, &sum})
+  for (const Buffer* b :
+       {&hits, &entryRadiance, &sampleRadiance, &shadows, &shadowQueue, &impulses, &flags, &totals, &sum})
     if (*b) out.push_back({b->name, "queues", b->bytes});
   if (!free_.empty()) out.push_back({"rays", "queues", free_.front().bytes * queuesMade_});
 }

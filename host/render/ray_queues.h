@@ -20,7 +20,8 @@ struct Segment {
 class RayQueues {
  public:
   /// Allocates what the features need for `capacity` entries; ray queues themselves come on demand.
-  RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity, std::uint32_t compactChunk);
+  RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity,
+            std::uint32_t compactChunk);
 
   std::uint32_t capacity() const { return capacity_; }
   /// Entries a segment may have: half the capacity where a hit can send out two impulses.
@@ -32,8 +33,8 @@ class RayQueues {
   /// Makes sure that `count` ray queues are there.
   void reserve(std::size_t count);
 
-  /// Splits [0, count) of `queue` into segments that the next queue can hold, never inside a sample, unless the
-  /// sample is longer than LONG_RUN: such a one is always sliced alike, whatever the capacity.
+  /// Splits [0, count) of `queue` into segments that the next queue can hold, never inside a sample, unless
+  /// the sample is longer than LONG_RUN: such a one is always sliced alike, whatever the capacity.
   std::vector<Segment> cut(const Buffer& queue, std::uint32_t count, bool mayHaveLongRuns) const;
 
   void report(std::vector<BufferStats>& out) const;

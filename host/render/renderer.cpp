@@ -25,7 +25,9 @@ namespace whittle {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 void copy3(float* out, const glm::vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
@@ -87,7 +89,8 @@ std::uint32_t roundedCapacity(const Settings& s) {
 
 void checkLimits(const Settings& s) {
   if (s.width < 1 || s.height < 1 || s.width > 65535 || s.height > 65535)
-    throw InputError(fmt::format("--width/--height: {}×{} is not between 1×1 and 65535×65535", s.width, s.height));
+    throw InputError(
+        fmt::format("--width/--height: {}×{} is not between 1×1 and 65535×65535", s.width, s.height));
   if (s.bounces < 1) throw InputError("--bounces: at least 1");
   if (s.raysPerPixel < 1) throw InputError("--rays-per-pixel: at least 1");
 }
@@ -104,13 +107,15 @@ class Session {
     limitCpuThreads(settings_.threads);
     compute_.emplace(selectDevice(listDevices(), settings_.device));
     tracePhase("open the device", opening);
-    if (settings_.threads > 0) tbbLimit_.emplace(tbb::global_control::max_allowed_parallelism, settings_.threads);
+    if (settings_.threads > 0)
+      tbbLimit_.emplace(tbb::global_control::max_allowed_parallelism, settings_.threads);
     const bool cpu = compute_->device().kind == "cpu";
     features_ = SceneFeatures::analyse(scene_, settings_, {cpu});
     compactChunk_ = cpu ? 1024 : 32;
     workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : 64;
     if (static_cast<std::uint64_t>(workGroup_) > compute_->device().maxWorkGroup)
-      throw InputError(fmt::format("--work-group: {} allows at most {}", compute_->device().name, compute_->device().maxWorkGroup));
+      throw InputError(fmt::format("--work-group: {} allows at most {}", compute_->device().name,
+                                   compute_->device().maxWorkGroup));
   }
 
   RenderResult run() {
@@ -141,7 +146,8 @@ class Session {
     say("compiling kernels");
     auto program = std::async(std::launch::async, [this] {
       const auto start = Clock::now();
-      const std::string options = fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}", features_.bits(), compactChunk_);
+      const std::string options = fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}",
+                                              features_.bits(), compactChunk_);
       cl::Program built = compute_->build(assembleKernelSource(stageFiles(), hooks_.kernelFolder), options);
       stats_.time.compile = secondsSince(start);
       tracePhase("compile kernels", start, Trace::Track::Compiler);
@@ -150,8 +156,12 @@ class Session {
     allocate();
     stages_.emplace(*compute_, program.get(), workGroup_);
     stages_->record(hooks_.trace);
-    const WavefrontSetup setup{features_, deviceScene_, cameraToDevice(scene_.cameras[cameraIndex_], settings_),
-                               constantsToDevice(scene_, settings_), static_cast<std::uint32_t>(settings_.bounces), compactChunk_};
+    const WavefrontSetup setup{features_,
+                               deviceScene_,
+                               cameraToDevice(scene_.cameras[cameraIndex_], settings_),
+                               constantsToDevice(scene_, settings_),
+                               static_cast<std::uint32_t>(settings_.bounces),
+                               compactChunk_};
     wavefront_.emplace(*compute_, *stages_, *queues_, setup, pixelOrder_, film_, aovs_);
   }
 
@@ -163,7 +173,8 @@ class Session {
     start = Clock::now();
     deviceScene_ = uploadScene(*compute_, scene_, tree, features_);
     const auto pixels = static_cast<std::size_t>(settings_.width) * settings_.height;
-    pixelOrderTable_ = makePixelOrder(static_cast<std::uint32_t>(settings_.width), static_cast<std::uint32_t>(settings_.height));
+    pixelOrderTable_ = makePixelOrder(static_cast<std::uint32_t>(settings_.width),
+                                      static_cast<std::uint32_t>(settings_.height));
     pixelOrder_ = compute_->upload("pixelOrder", pixelOrderTable_);
     film_ = compute_->allocate("film", pixels * FILM_PLANES * sizeof(float));
     compute_->fillZero(film_);
@@ -173,7 +184,8 @@ class Session {
     tracePhase("upload", start);
   }
 
-  /// All samples in one pass, or in doubling passes where a limit or an error target wants to look in between.
+  /// All samples in one pass, or in doubling passes where a limit or an error target wants to look in
+  /// between.
   void passes() {
     say("rendering");
     const auto start = Clock::now();
@@ -183,11 +195,13 @@ class Session {
     while (samplesDone_ < total) {
       const int pass = looks ? std::min(std::max(1, samplesDone_), total - samplesDone_) : total;
       const std::uint64_t before = pixels * static_cast<std::uint64_t>(samplesDone_);
-      wavefront_->trace(static_cast<std::uint32_t>(samplesDone_), static_cast<std::uint32_t>(pass), [&](std::uint64_t done) {
-        const auto& t = wavefront_->tally();
-        if (hooks_.progress)
-          hooks_.progress({before + done, pixels * static_cast<std::uint64_t>(total), secondsSince(start), t.primary + t.impulse + t.shadow});
-      });
+      wavefront_->trace(static_cast<std::uint32_t>(samplesDone_), static_cast<std::uint32_t>(pass),
+                        [&](std::uint64_t done) {
+                          const auto& t = wavefront_->tally();
+                          if (hooks_.progress)
+                            hooks_.progress({before + done, pixels * static_cast<std::uint64_t>(total),
+                                             secondsSince(start), t.primary + t.impulse + t.shadow});
+                        });
       samplesDone_ += pass;
       if (!looks || (samplesDone_ < 2 && !hooks_.reference)) continue;
       const double estimate = look(secondsSince(start));
@@ -244,8 +258,10 @@ class Session {
     stats_.settings.raysPerPixel = samplesDone_;
     stats_.searchUsed = features_.has(Feature::TREE) ? "tree" : "array";
     const DeviceInfo& d = compute_->device();
-    stats_.device = {d.platform, d.name, d.version, d.driver, d.computeUnits,
-                     settings_.threads > 0 ? settings_.threads : static_cast<int>(d.computeUnits)};
+    stats_.device = {
+        d.platform,     d.name,
+        d.version,      d.driver,
+        d.computeUnits, settings_.threads > 0 ? settings_.threads : static_cast<int>(d.computeUnits)};
     for (const auto& line : features_.lines()) {
       if (line.used)
         stats_.featuresUsed.push_back(line.text);
@@ -297,7 +313,8 @@ class Session {
 std::size_t findCamera(const Scene& scene, const std::string& selector) {
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(selector.data(), selector.data() + selector.size(), index);
-  if (error == std::errc{} && end == selector.data() + selector.size() && index < scene.cameras.size()) return index;
+  if (error == std::errc{} && end == selector.data() + selector.size() && index < scene.cameras.size())
+    return index;
   for (std::size_t i = 0; i < scene.cameras.size(); ++i)
     if (scene.cameras[i].name == selector) return i;
   std::string names;

@@ -23,21 +23,24 @@ struct RenderProgress {
 };
 
 struct RenderResult {
-  FloatImage radiance;                     ///< RGB, W/(m² sr)
-  std::map<std::string, FloatImage> aovs;  ///< depth (1 channel, m), primitive (1), normal (3, world), albedo (3)
-  Stats stats;                             ///< time.load, time.write and time.total are the caller's to fill
+  FloatImage radiance;  ///< RGB, W/(m² sr)
+  std::map<std::string, FloatImage>
+      aovs;     ///< depth (1 channel, m), primitive (1), normal (3, world), albedo (3)
+  Stats stats;  ///< time.load, time.write and time.total are the caller's to fill
 };
 
 struct RenderHooks {
-  std::function<void(const RenderProgress&)> progress;       ///< now and then, may be empty
-  std::function<void(const std::string&)> phase;             ///< "compiling kernels", … may be empty
-  std::optional<std::filesystem::path> kernelFolder;         ///< kernels from here instead of the binary
-  const FloatImage* reference = nullptr;  ///< of the picture's size: each look at the film says how far it is from this
-  Trace* trace = nullptr;                 ///< records launches and phases; null: nothing is kept
+  std::function<void(const RenderProgress&)> progress;  ///< now and then, may be empty
+  std::function<void(const std::string&)> phase;        ///< "compiling kernels", … may be empty
+  std::optional<std::filesystem::path> kernelFolder;    ///< kernels from here instead of the binary
+  const FloatImage* reference =
+      nullptr;             ///< of the picture's size: each look at the film says how far it is from this
+  Trace* trace = nullptr;  ///< records launches and phases; null: nothing is kept
 };
 
-/// Renders. The same scene and settings on the same device give the same bits, whatever the threads, work-group and
-/// wavefront size. Throws ClError, InputError (unknown camera, picture too large) or std::invalid_argument (device).
+/// Renders. The same scene and settings on the same device give the same bits, whatever the threads,
+/// work-group and wavefront size. Throws ClError, InputError (unknown camera, picture too large) or
+/// std::invalid_argument (device).
 RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks = {});
 
 /// The camera with this name or index; throws InputError that lists what there is.

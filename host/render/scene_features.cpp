@@ -1,4 +1,5 @@
-// The analysis behind SceneFeatures: one line for each feature, with the reason a person is given where it is left out.
+// The analysis behind SceneFeatures: one line for each feature, with the reason a person is given where it is
+// left out.
 #include "render/scene_features.h"
 
 #include <algorithm>
@@ -12,7 +13,10 @@ namespace {
 class Needs {
  public:
   Needs(const Scene& ofScene, const Settings& withSettings, const DeviceTraits& onDevice)
-      : scene(ofScene), settings(withSettings), traits(onDevice), materialUsed_(ofScene.materials.size(), false) {
+      : scene(ofScene),
+        settings(withSettings),
+        traits(onDevice),
+        materialUsed_(ofScene.materials.size(), false) {
     for (const auto& t : scene.triangles) materialUsed_[t.material] = true;
   }
 
@@ -30,9 +34,11 @@ class Needs {
   }
   bool anySlot(const std::function<bool(const TextureSlot&)>& wanted) const {
     return anyMaterial([&](const Material& m) {
-      const TextureSlot* slots[] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissionTexture,
-                                    &m.specularTexture, &m.specularColorTexture, &m.transmissionTexture};
-      return std::any_of(std::begin(slots), std::end(slots), [&](const TextureSlot* s) { return s->used() && wanted(*s); });
+      const TextureSlot* slots[] = {
+          &m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,      &m.emissionTexture,
+          &m.specularTexture,  &m.specularColorTexture,     &m.transmissionTexture};
+      return std::any_of(std::begin(slots), std::end(slots),
+                         [&](const TextureSlot* s) { return s->used() && wanted(*s); });
     });
   }
 
@@ -41,7 +47,7 @@ class Needs {
   }
   bool rough(const Material& m) const {
     return !m.unlit && (m.metallicRoughnessTexture.used() ? m.roughness >= settings.mirrorRoughness
-                                                           : !(m.roughness < settings.mirrorRoughness));
+                                                          : !(m.roughness < settings.mirrorRoughness));
   }
   static bool transmits(const Material& m) { return !m.unlit && m.transmission > 0.0F; }
   static bool refracts(const Material& m) { return transmits(m) && m.volume; }
@@ -92,17 +98,28 @@ std::vector<Question> geometryQuestions(const Needs& n) {
       {F::VERTEX_NORMALS, !n.scene.normals.empty(), "no mesh has vertex normals"},
       {F::VERTEX_COLORS, !n.scene.colors.empty(), "no mesh has vertex colours"},
       {F::TEXTURES, n.anySlot([](const TextureSlot&) { return true; }), "no material has a texture"},
-      {F::UV0, n.anySlot([](const TextureSlot& s) { return s.uvSet == 0; }) && !n.scene.uv0.empty(), "no texture reads the first UV set"},
-      {F::UV1, n.anySlot([](const TextureSlot& s) { return s.uvSet != 0; }) && !n.scene.uv1.empty(), "no texture reads a second UV set"},
-      {F::NEAREST_FILTER, n.anySlot([](const TextureSlot& s) { return s.filter == Filter::Nearest; }), "every texture is filtered"},
-      {F::BASE_COLOR_TEXTURE, n.anyMaterial([](const Material& m) { return m.baseColorTexture.used(); }), "no base colour texture"},
-      {F::METALLIC_ROUGHNESS_TEXTURE, n.anyMaterial([](const Material& m) { return m.metallicRoughnessTexture.used(); }),
+      {F::UV0, n.anySlot([](const TextureSlot& s) { return s.uvSet == 0; }) && !n.scene.uv0.empty(),
+       "no texture reads the first UV set"},
+      {F::UV1, n.anySlot([](const TextureSlot& s) { return s.uvSet != 0; }) && !n.scene.uv1.empty(),
+       "no texture reads a second UV set"},
+      {F::NEAREST_FILTER, n.anySlot([](const TextureSlot& s) { return s.filter == Filter::Nearest; }),
+       "every texture is filtered"},
+      {F::BASE_COLOR_TEXTURE, n.anyMaterial([](const Material& m) { return m.baseColorTexture.used(); }),
+       "no base colour texture"},
+      {F::METALLIC_ROUGHNESS_TEXTURE,
+       n.anyMaterial([](const Material& m) { return m.metallicRoughnessTexture.used(); }),
        "no metallic-roughness texture"},
-      {F::NORMAL_TEXTURE, n.anyMaterial([](const Material& m) { return m.normalTexture.used(); }), "no normal map"},
-      {F::EMISSION_TEXTURE, n.anyMaterial([](const Material& m) { return m.emissionTexture.used(); }), "no emission texture"},
-      {F::SPECULAR_TEXTURE, n.anyMaterial([](const Material& m) { return m.specularTexture.used(); }), "no specular texture"},
-      {F::SPECULAR_COLOR_TEXTURE, n.anyMaterial([](const Material& m) { return m.specularColorTexture.used(); }), "no specular colour texture"},
-      {F::TRANSMISSION_TEXTURE, n.anyMaterial([](const Material& m) { return m.transmissionTexture.used(); }), "no transmission texture"},
+      {F::NORMAL_TEXTURE, n.anyMaterial([](const Material& m) { return m.normalTexture.used(); }),
+       "no normal map"},
+      {F::EMISSION_TEXTURE, n.anyMaterial([](const Material& m) { return m.emissionTexture.used(); }),
+       "no emission texture"},
+      {F::SPECULAR_TEXTURE, n.anyMaterial([](const Material& m) { return m.specularTexture.used(); }),
+       "no specular texture"},
+      {F::SPECULAR_COLOR_TEXTURE,
+       n.anyMaterial([](const Material& m) { return m.specularColorTexture.used(); }),
+       "no specular colour texture"},
+      {F::TRANSMISSION_TEXTURE, n.anyMaterial([](const Material& m) { return m.transmissionTexture.used(); }),
+       "no transmission texture"},
   };
 }
 
@@ -113,15 +130,21 @@ std::vector<Question> lightQuestions(const Needs& n) {
   const glm::vec3 b = n.scene.background.radiance;
   return {
       {F::LIGHTS, n.lit(), "the scene has no lights"},
-      {F::SHADOWS, n.shadows(), n.settings.shadows ? "no light casts shadows" : "shadows are switched off", !n.settings.shadows},
+      {F::SHADOWS, n.shadows(), n.settings.shadows ? "no light casts shadows" : "shadows are switched off",
+       !n.settings.shadows},
       {F::FILTERED_SHADOWS, n.shadows() && filters, "no surface that casts a shadow lets light through"},
       {F::POINT_LIGHTS, kind(LightKind::Point), "no point light"},
       {F::DIRECTIONAL_LIGHTS, kind(LightKind::Directional), "no directional light"},
       {F::SPOT_LIGHTS, kind(LightKind::Spot), "no spot light"},
-      {F::LIGHT_RANGE, n.anyLight([](const Light& l) { return std::isfinite(l.range); }), "no light has a range"},
-      {F::MICROFACET, n.lit() && n.anyMaterial([&](const Material& m) { return n.rough(m) && (m.specular > 0.0F || m.metallic > 0.0F); }),
+      {F::LIGHT_RANGE, n.anyLight([](const Light& l) { return std::isfinite(l.range); }),
+       "no light has a range"},
+      {F::MICROFACET, n.lit() && n.anyMaterial([&](const Material& m) {
+         return n.rough(m) && (m.specular > 0.0F || m.metallic > 0.0F);
+       }),
        "no rough surface shows a highlight"},
-      {F::EMISSION, n.anyMaterial([](const Material& m) { return !m.unlit && m.emission != glm::vec3(0.0F); }), "no material emits"},
+      {F::EMISSION,
+       n.anyMaterial([](const Material& m) { return !m.unlit && m.emission != glm::vec3(0.0F); }),
+       "no material emits"},
       {F::UNLIT, n.anyMaterial([](const Material& m) { return m.unlit; }), "no material is unlit"},
       {F::BACKGROUND, b.r > 0.0F || b.g > 0.0F || b.b > 0.0F, "the background is black"},
       {F::BACKGROUND_MAP, !n.scene.background.map.empty(), "the background is one colour"},
@@ -131,23 +154,29 @@ std::vector<Question> lightQuestions(const Needs& n) {
 std::vector<Question> impulseQuestions(const Needs& n) {
   using F = Feature;
   const bool some = n.impulses();
-  const char* const none = n.settings.bounces <= 1 ? "one bounce sends out no impulses" : "no material is smooth, transmits or blends";
+  const char* const none = n.settings.bounces <= 1 ? "one bounce sends out no impulses"
+                                                   : "no material is smooth, transmits or blends";
   return {
       {F::IMPULSES, some, none, n.settings.bounces <= 1},
-      {F::METAL, n.anyMaterial([](const Material& m) { return m.metallic > 0.0F; }), "no material is metallic"},
+      {F::METAL, n.anyMaterial([](const Material& m) { return m.metallic > 0.0F; }),
+       "no material is metallic"},
       {F::MIRROR, some && n.mirrors(), some ? "no smooth material reflects" : none},
       {F::TRANSMISSION, n.anyMaterial(Needs::transmits), "no material transmits"},
       {F::REFRACTION, some && n.anyMaterial(Needs::refracts), "no transmitting material bounds a volume"},
-      {F::ABSORPTION, n.anyMaterial([](const Material& m) { return m.volume && m.sigma_a != glm::vec3(0.0F); }), "no volume absorbs"},
-      {F::ALPHA_MASK, n.anyMaterial([](const Material& m) { return m.alphaMode == AlphaMode::Mask; }), "no material is masked"},
+      {F::ABSORPTION,
+       n.anyMaterial([](const Material& m) { return m.volume && m.sigma_a != glm::vec3(0.0F); }),
+       "no volume absorbs"},
+      {F::ALPHA_MASK, n.anyMaterial([](const Material& m) { return m.alphaMode == AlphaMode::Mask; }),
+       "no material is masked"},
       {F::ALPHA_BLEND, n.anyMaterial(Needs::blends), "no material is blended"},
-      {F::SPECULAR_EXTENSION,
-       n.anyMaterial([](const Material& m) {
-         return m.specular != 1.0F || m.specularColor != glm::vec3(1.0F) || m.specularTexture.used() || m.specularColorTexture.used();
+      {F::SPECULAR_EXTENSION, n.anyMaterial([](const Material& m) {
+         return m.specular != 1.0F || m.specularColor != glm::vec3(1.0F) || m.specularTexture.used() ||
+                m.specularColorTexture.used();
        }),
        "no material changes its specular strength or colour"},
       {F::BOTH_BRANCHES, n.twoImpulses(),
-       n.settings.impulses == ImpulseMode::One ? "one impulse is chosen at random" : "no surface sends out two impulses",
+       n.settings.impulses == ImpulseMode::One ? "one impulse is chosen at random"
+                                               : "no surface sends out two impulses",
        n.settings.impulses == ImpulseMode::One},
       {F::ONE_IMPULSE, some && n.settings.impulses == ImpulseMode::One, "both branches are followed", true},
   };
@@ -160,7 +189,8 @@ std::vector<Question> cameraQuestions(const Needs& n) {
   const char* const one = many ? "another sampler was chosen" : "one ray goes through the pixel's centre";
   return {
       {F::ORTHOGRAPHIC,
-                            std::any_of(n.scene.cameras.begin(), n.scene.cameras.end(), [](const Camera& c) { return c.orthographic; }),
+       std::any_of(n.scene.cameras.begin(), n.scene.cameras.end(),
+                   [](const Camera& c) { return c.orthographic; }),
        "no camera is orthographic"},
       {F::SAMPLER_RANDOM, sampler(Sampler::Random), one},
       {F::SAMPLER_STRATIFIED, sampler(Sampler::Stratified), one},
@@ -172,10 +202,12 @@ std::vector<Question> cameraQuestions(const Needs& n) {
 
 }  // namespace
 
-SceneFeatures SceneFeatures::analyse(const Scene& scene, const Settings& settings, const DeviceTraits& traits) {
+SceneFeatures SceneFeatures::analyse(const Scene& scene, const Settings& settings,
+                                     const DeviceTraits& traits) {
   const Needs needs(scene, settings, traits);
   std::vector<Question> questions;
-  for (auto part : {geometryQuestions(needs), lightQuestions(needs), impulseQuestions(needs), cameraQuestions(needs)})
+  for (auto part :
+       {geometryQuestions(needs), lightQuestions(needs), impulseQuestions(needs), cameraQuestions(needs)})
     questions.insert(questions.end(), part.begin(), part.end());
 
   SceneFeatures features;
@@ -194,8 +226,9 @@ SceneFeatures SceneFeatures::analyse(const Scene& scene, const Settings& setting
     if (used) features.bits_ |= std::uint64_t{1} << static_cast<int>(q.feature);
     features.lines_.push_back({q.feature, text(q.feature), used, used ? "" : q.reason});
   }
-  std::sort(features.lines_.begin(), features.lines_.end(),
-            [](const FeatureLine& a, const FeatureLine& b) { return static_cast<int>(a.feature) < static_cast<int>(b.feature); });
+  std::sort(features.lines_.begin(), features.lines_.end(), [](const FeatureLine& a, const FeatureLine& b) {
+    return static_cast<int>(a.feature) < static_cast<int>(b.feature);
+  });
   return features;
 }
 

@@ -1,5 +1,5 @@
-// What a scene with these settings needs, decided in one place: drives the kernels compiled, the stages launched and
-// the buffers allocated, and is what `whittle info` prints.
+// What a scene with these settings needs, decided in one place: drives the kernels compiled, the stages
+// launched and the buffers allocated, and is what `whittle info` prints.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct DeviceTraits {
 
 struct FeatureLine {
   Feature feature;
-  std::string text;    ///< what a person calls it
+  std::string text;  ///< what a person calls it
   bool used = false;
   std::string reason;  ///< why it is left out, or empty
 };
@@ -39,7 +39,8 @@ class SceneFeatures {
   std::uint64_t bits() const { return bits_; }
   const std::vector<FeatureLine>& lines() const { return lines_; }
 
-  /// Derives the features. settings.keepAllFeatures switches everything on that does not contradict the settings.
+  /// Derives the features. settings.keepAllFeatures switches everything on that does not contradict the
+  /// settings.
   static SceneFeatures analyse(const Scene& scene, const Settings& settings, const DeviceTraits& traits);
 
  private:

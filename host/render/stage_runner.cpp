@@ -11,33 +11,40 @@ StageRunner::StageRunner(Compute& compute, cl::Program program, int workGroup)
 cl::Kernel& StageRunner::find(const std::string& name) {
   const auto found = kernels_.find(name);
   if (found != kernels_.end()) return found->second;
-  return clTry("finding kernel '" + name + "'",
-               [&]() -> cl::Kernel& { return kernels_.emplace(name, cl::Kernel(program_, name.c_str())).first->second; });
+  return clTry("finding kernel '" + name + "'", [&]() -> cl::Kernel& {
+    return kernels_.emplace(name, cl::Kernel(program_, name.c_str())).first->second;
+  });
 }
 
 std::size_t StageRunner::stageIndex(const std::string& name) {
-  const auto at = std::find_if(stages_.begin(), stages_.end(), [&](const StageStats& s) { return s.name == name; });
+  const auto at =
+      std::find_if(stages_.begin(), stages_.end(), [&](const StageStats& s) { return s.name == name; });
   if (at != stages_.end()) return static_cast<std::size_t>(at - stages_.begin());
   stages_.push_back({name, 0, 0.0, 0});
   return stages_.size() - 1;
 }
 
-void StageRunner::setBytes(cl::Kernel& kernel, const std::string& name, cl_uint index, std::size_t bytes, const void* value) {
+void StageRunner::setBytes(cl::Kernel& kernel, const std::string& name, cl_uint index, std::size_t bytes,
+                           const void* value) {
   const cl_int error = clSetKernelArg(kernel(), index, bytes, value);
   if (error != CL_SUCCESS)
-    throw ClError("setting argument " + std::to_string(index) + " of kernel '" + name + "': " + clErrorName(error));
+    throw ClError("setting argument " + std::to_string(index) + " of kernel '" + name +
+                  "': " + clErrorName(error));
 }
 
-void StageRunner::setBuffer(cl::Kernel& kernel, const std::string& name, cl_uint index, const Buffer& buffer) {
+void StageRunner::setBuffer(cl::Kernel& kernel, const std::string& name, cl_uint index,
+                            const Buffer& buffer) {
   const cl_mem handle = buffer ? buffer.handle() : nullptr;
   setBytes(kernel, name, index, sizeof(handle), buffer ? &handle : nullptr);
 }
 
-void StageRunner::launch(const std::string& name, cl::Kernel& kernel, std::uint64_t workItems, std::uint64_t items) {
+void StageRunner::launch(const std::string& name, cl::Kernel& kernel, std::uint64_t workItems,
+                         std::uint64_t items) {
   const std::size_t global = (workItems + workGroup_ - 1) / workGroup_ * workGroup_;
   Launch launch{stageIndex(name), {}, items, bounce_};
   clTry("launching kernel '" + name + "' on " + compute_.device().name, [&] {
-    compute_.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(global), cl::NDRange(workGroup_), nullptr, &launch.event);
+    compute_.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(global), cl::NDRange(workGroup_),
+                                          nullptr, &launch.event);
   });
   if (trace_) launch.enqueued = steadySeconds(Trace::Clock::now());
   stages_[launch.stage].launches += 1;

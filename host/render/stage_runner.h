@@ -1,4 +1,5 @@
-// Launches the stages' kernels and keeps their times. A stage has one name: kernel, file, host method, profiler label.
+// Launches the stages' kernels and keeps their times. A stage has one name: kernel, file, host method,
+// profiler label.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +18,13 @@ namespace whittle {
 
 class StageRunner {
  public:
-  /// `workGroup` work items at a time; every launch of a kernel uses the same, because PoCL compiles each anew.
+  /// `workGroup` work items at a time; every launch of a kernel uses the same, because PoCL compiles each
+  /// anew.
   StageRunner(Compute& compute, cl::Program program, int workGroup);
 
-  /// Runs `kernel` over `workItems` work items. `items` is what statistics count. Arguments in the kernel's order:
-  /// Buffers (empty ones become null pointers), a DeviceScene (expands to SCENE_PARAMS), or plain values.
+  /// Runs `kernel` over `workItems` work items. `items` is what statistics count. Arguments in the kernel's
+  /// order: Buffers (empty ones become null pointers), a DeviceScene (expands to SCENE_PARAMS), or plain
+  /// values.
   template <typename... Args>
   void run(const std::string& kernel, std::uint64_t workItems, std::uint64_t items, const Args&... args) {
     if (workItems == 0) return;
@@ -31,7 +34,8 @@ class StageRunner {
     launch(kernel, k, workItems, items);
   }
 
-  /// Keeps every launch for `trace` (null: none, the usual case). Launches count as of `bounce` until it is set anew.
+  /// Keeps every launch for `trace` (null: none, the usual case). Launches count as of `bounce` until it is
+  /// set anew.
   void record(Trace* trace) { trace_ = trace; }
   void setBounce(std::uint32_t bounce) { bounce_ = bounce; }
 
@@ -52,10 +56,13 @@ class StageRunner {
   std::size_t stageIndex(const std::string& name);
   void launch(const std::string& name, cl::Kernel& kernel, std::uint64_t workItems, std::uint64_t items);
   void recordLaunch(const Launch& launch, std::uint64_t start, std::uint64_t end);
-  void setBytes(cl::Kernel& kernel, const std::string& name, cl_uint index, std::size_t bytes, const void* value);
+  void setBytes(cl::Kernel& kernel, const std::string& name, cl_uint index, std::size_t bytes,
+                const void* value);
   void setBuffer(cl::Kernel& kernel, const std::string& name, cl_uint index, const Buffer& buffer);
 
-  void set(cl::Kernel& k, const std::string& name, cl_uint& index, const Buffer& b) { setBuffer(k, name, index++, b); }
+  void set(cl::Kernel& k, const std::string& name, cl_uint& index, const Buffer& b) {
+    setBuffer(k, name, index++, b);
+  }
   void set(cl::Kernel& k, const std::string& name, cl_uint& index, const DeviceScene& scene) {
     for (const Buffer* b : scene.buffers()) setBuffer(k, name, index++, *b);
     setBytes(k, name, index++, sizeof(scene.triangleCount), &scene.triangleCount);
@@ -74,7 +81,8 @@ class StageRunner {
   std::vector<Launch> launches_;
   Trace* trace_ = nullptr;
   std::uint32_t bounce_ = 0;
-  std::optional<double> hostMinusDevice_;  ///< seconds to add to the device's clock; found at the first launch recorded
+  std::optional<double>
+      hostMinusDevice_;  ///< seconds to add to the device's clock; found at the first launch recorded
 };
 
 }  // namespace whittle

@@ -10,7 +10,9 @@ const char* toString(Sampler sampler) {
   return sampler == Sampler::Random ? "random" : (sampler == Sampler::Stratified ? "stratified" : "sobol");
 }
 const char* toString(ImpulseMode mode) { return mode == ImpulseMode::All ? "all" : "one"; }
-const char* toString(Lanes lanes) { return lanes == Lanes::Auto ? "auto" : (lanes == Lanes::One ? "1" : "8"); }
+const char* toString(Lanes lanes) {
+  return lanes == Lanes::Auto ? "auto" : (lanes == Lanes::One ? "1" : "8");
+}
 
 nlohmann::ordered_json settingsToJson(const Settings& s) {
   return {{"width", s.width},
@@ -57,30 +59,43 @@ nlohmann::ordered_json memoryToJson(const std::vector<BufferStats>& buffers) {
 
 nlohmann::ordered_json statsToJson(const Stats& s) {
   nlohmann::ordered_json json;
-  json["scene"] = {{"file", s.scene.file},           {"triangles", s.scene.triangles},
-                   {"droppedTriangles", s.scene.droppedTriangles}, {"materials", s.scene.materials},
-                   {"lights", s.scene.lights},       {"textures", s.scene.textures}};
+  json["scene"] = {{"file", s.scene.file},
+                   {"triangles", s.scene.triangles},
+                   {"droppedTriangles", s.scene.droppedTriangles},
+                   {"materials", s.scene.materials},
+                   {"lights", s.scene.lights},
+                   {"textures", s.scene.textures}};
   json["settings"] = settingsToJson(s.settings);
   json["settings"]["searchUsed"] = s.searchUsed;
-  json["device"] = {{"platform", s.device.platform}, {"name", s.device.name},
-                    {"version", s.device.version},   {"driver", s.device.driver},
+  json["device"] = {{"platform", s.device.platform},         {"name", s.device.name},
+                    {"version", s.device.version},           {"driver", s.device.driver},
                     {"computeUnits", s.device.computeUnits}, {"threads", s.device.threads}};
   json["features"]["used"] = s.featuresUsed;
   json["features"]["leftOut"] = nlohmann::ordered_json::array();
   for (const auto& [name, reason] : s.featuresLeftOut)
     json["features"]["leftOut"].push_back({{"name", name}, {"reason", reason}});
-  json["rays"] = {{"primary", s.rays.primary}, {"impulse", s.rays.impulse}, {"shadow", s.rays.shadow}, {"total", s.rays.total()}};
-  json["time"] = {{"load", s.time.load},     {"build", s.time.build},   {"compile", s.time.compile}, {"upload", s.time.upload},
-                  {"render", s.time.render}, {"write", s.time.write},   {"total", s.time.total}};
+  json["rays"] = {{"primary", s.rays.primary},
+                  {"impulse", s.rays.impulse},
+                  {"shadow", s.rays.shadow},
+                  {"total", s.rays.total()}};
+  json["time"] = {{"load", s.time.load},     {"build", s.time.build},   {"compile", s.time.compile},
+                  {"upload", s.time.upload}, {"render", s.time.render}, {"write", s.time.write},
+                  {"total", s.time.total}};
   json["stages"] = nlohmann::ordered_json::array();
   for (const auto& stage : s.stages)
-    json["stages"].push_back({{"name", stage.name}, {"launches", stage.launches}, {"seconds", stage.seconds}, {"items", stage.items}});
+    json["stages"].push_back({{"name", stage.name},
+                              {"launches", stage.launches},
+                              {"seconds", stage.seconds},
+                              {"items", stage.items}});
   json["memory"] = memoryToJson(s.buffers);
   json["error"] = nlohmann::ordered_json::array();
   for (const auto& e : s.error)
-    json["error"].push_back({{"seconds", e.seconds}, {"raysPerPixel", e.raysPerPixel},
-                             {"estimate", e.raysPerPixel >= 2 ? nlohmann::ordered_json(e.estimate) : nlohmann::ordered_json(nullptr)},
-                             {"rmse", e.rmse ? nlohmann::ordered_json(*e.rmse) : nlohmann::ordered_json(nullptr)}});
+    json["error"].push_back(
+        {{"seconds", e.seconds},
+         {"raysPerPixel", e.raysPerPixel},
+         {"estimate",
+          e.raysPerPixel >= 2 ? nlohmann::ordered_json(e.estimate) : nlohmann::ordered_json(nullptr)},
+         {"rmse", e.rmse ? nlohmann::ordered_json(*e.rmse) : nlohmann::ordered_json(nullptr)}});
   json["biasBound"] = nullptr;
   json["nonFinite"] = s.nonFinite;
   json["dropped"] = s.dropped;

@@ -14,7 +14,7 @@ namespace whittle {
 struct StageStats {
   std::string name;  ///< = kernel = file = host method
   std::uint64_t launches = 0;
-  double seconds = 0.0;  ///< on the device, from its event counters
+  double seconds = 0.0;     ///< on the device, from its event counters
   std::uint64_t items = 0;  ///< rays, entries or pixels worked on, not padded work items
 };
 
@@ -27,7 +27,8 @@ struct BufferStats {
 struct ErrorPoint {
   double seconds = 0.0;
   int raysPerPixel = 0;
-  double estimate = 0.0;  ///< standard error of the picture: RMS over pixels of the luminance mean's, W/(m² sr)
+  double estimate =
+      0.0;  ///< standard error of the picture: RMS over pixels of the luminance mean's, W/(m² sr)
   std::optional<double> rmse;  ///< against RenderHooks::reference, all colour channels, W/(m² sr)
 };
 
@@ -36,7 +37,7 @@ struct Stats {
     std::string file;
     std::uint64_t triangles = 0, droppedTriangles = 0, materials = 0, lights = 0, textures = 0;
   } scene;
-  Settings settings;      ///< as used: camera resolved, raysPerPixel reached
+  Settings settings;  ///< as used: camera resolved, raysPerPixel reached
   std::string searchUsed;
   struct {
     std::string platform, name, version, driver;

@@ -10,12 +10,19 @@ namespace whittle {
 
 Wavefront::Wavefront(Compute& compute, StageRunner& stages, RayQueues& queues, const WavefrontSetup& setup,
                      const Buffer& pixelOrder, const Buffer& film, const Buffer& aovs)
-    : compute_(compute), stages_(stages), queues_(queues), setup_(setup), pixelOrder_(pixelOrder), film_(film), aovs_(aovs) {
+    : compute_(compute),
+      stages_(stages),
+      queues_(queues),
+      setup_(setup),
+      pixelOrder_(pixelOrder),
+      film_(film),
+      aovs_(aovs) {
   counters_ = compute_.allocate("counters", COUNTERS * sizeof(std::uint32_t));
   compute_.fillZero(counters_);
 }
 
-void Wavefront::trace(std::uint32_t firstSample, std::uint32_t samples, const std::function<void(std::uint64_t)>& progress) {
+void Wavefront::trace(std::uint32_t firstSample, std::uint32_t samples,
+                      const std::function<void(std::uint64_t)>& progress) {
   const std::uint32_t pixels = setup_.camera.width * setup_.camera.height;
   const std::uint32_t room = queues_.segmentLimit();
   const std::uint32_t samplesAtOnce = std::min(samples, room);
@@ -23,7 +30,8 @@ void Wavefront::trace(std::uint32_t firstSample, std::uint32_t samples, const st
   std::uint64_t done = 0;
   for (std::uint32_t pixel = 0; pixel < pixels; pixel += pixelsAtOnce) {
     for (std::uint32_t sample = 0; sample < samples; sample += samplesAtOnce) {
-      batch_ = {pixel, std::min(pixelsAtOnce, pixels - pixel), firstSample + sample, std::min(samplesAtOnce, samples - sample)};
+      batch_ = {pixel, std::min(pixelsAtOnce, pixels - pixel), firstSample + sample,
+                std::min(samplesAtOnce, samples - sample)};
       traceBatch(batch_);
       done += std::uint64_t{batch_.pixels} * batch_.samples;
       if (progress) progress(done);
@@ -48,7 +56,8 @@ void Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t boun
   for (const Segment& segment : segments) {
     Buffer next;
     const std::uint32_t nextCount = traceSegment(queue, segment, bounce, next);
-    // The queue of the last segment is free before the next bounce: two queues serve a path that is never cut.
+    // The queue of the last segment is free before the next bounce: two queues serve a path that is never
+    // cut.
     if (segment.end == count) queues_.release(std::move(queue));
     if (nextCount > 0)
       traceQueue(std::move(next), nextCount, bounce + 1);
@@ -57,7 +66,8 @@ void Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t boun
   }
 }
 
-std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std::uint32_t bounce, Buffer& next) {
+std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std::uint32_t bounce,
+                                      Buffer& next) {
   stages_.setBounce(bounce);
   intersect(queue, segment);
   shade(queue, segment, bounce);
@@ -78,29 +88,33 @@ void Wavefront::raygen(const Buffer& queue, std::uint32_t count) {
 }
 
 void Wavefront::intersect(const Buffer& queue, Segment segment) {
-  stages_.run("intersect", searchItems(segment.count()), segment.count(), setup_.scene, segment.begin, segment.count(),
-              queues_.capacity(), queue, queues_.hits);
+  stages_.run("intersect", searchItems(segment.count()), segment.count(), setup_.scene, segment.begin,
+              segment.count(), queues_.capacity(), queue, queues_.hits);
 }
 
 void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce) {
-  stages_.run("shade", segment.count(), segment.count(), setup_.scene, setup_.constants, batch_, segment.begin, segment.count(),
-              queues_.capacity(), bounce, setup_.bounces, setup_.camera.width, setup_.camera.width * setup_.camera.height,
-              pixelOrder_, queue, queues_.hits, queues_.entryRadiance, queues_.shadows, queues_.impulses, queues_.flags, aovs_);
+  stages_.run("shade", segment.count(), segment.count(), setup_.scene, setup_.constants, batch_,
+              segment.begin, segment.count(), queues_.capacity(), bounce, setup_.bounces, setup_.camera.width,
+              setup_.camera.width * setup_.camera.height, pixelOrder_, queue, queues_.hits,
+              queues_.entryRadiance, queues_.shadows, queues_.impulses, queues_.flags, aovs_);
   tally_.finished += segment.count();
 }
 
 void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t light) {
-  stages_.run("shade_light", segment.count(), segment.count(), setup_.scene, setup_.constants, segment.begin, segment.count(),
-              queues_.capacity(), light, queue, queues_.hits, queues_.entryRadiance, queues_.shadows, queues_.flags);
+  stages_.run("shade_light", segment.count(), segment.count(), setup_.scene, setup_.constants, segment.begin,
+              segment.count(), queues_.capacity(), light, queue, queues_.hits, queues_.entryRadiance,
+              queues_.shadows, queues_.flags);
 }
 
 std::uint32_t Wavefront::compactShadow(Segment segment) {
   if (!queues_.shadows) return 0;
   const std::uint32_t chunks = (segment.count() + setup_.compactChunk - 1) / setup_.compactChunk;
-  stages_.run("compact_count_shadow", chunks, segment.count(), segment.count(), queues_.flags, queues_.totals);
+  stages_.run("compact_count_shadow", chunks, segment.count(), segment.count(), queues_.flags,
+              queues_.totals);
   const std::uint32_t found = scanChunks(segment.count());
   if (found > 0) {
-    stages_.run("compact_shadow", chunks, segment.count(), segment.count(), queues_.flags, queues_.totals, queues_.shadowQueue);
+    stages_.run("compact_shadow", chunks, segment.count(), segment.count(), queues_.flags, queues_.totals,
+                queues_.shadowQueue);
     tally_.shadow += found;
   }
   return found;
@@ -108,28 +122,29 @@ std::uint32_t Wavefront::compactShadow(Segment segment) {
 
 void Wavefront::occlude(std::uint32_t count) {
   if (count == 0) return;
-  stages_.run("occlude", searchItems(count), count, setup_.scene, count, queues_.capacity(), queues_.shadowQueue,
-              queues_.shadows, queues_.entryRadiance);
+  stages_.run("occlude", searchItems(count), count, setup_.scene, count, queues_.capacity(),
+              queues_.shadowQueue, queues_.shadows, queues_.entryRadiance);
 }
 
 std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, Buffer& next) {
   if (!queues_.impulses) return 0;
   const std::uint32_t chunks = (segment.count() + setup_.compactChunk - 1) / setup_.compactChunk;
-  stages_.run("compact_count_impulse", chunks, segment.count(), segment.count(), queues_.flags, queues_.totals);
+  stages_.run("compact_count_impulse", chunks, segment.count(), segment.count(), queues_.flags,
+              queues_.totals);
   const std::uint32_t found = scanChunks(segment.count());
   if (found == 0) return 0;
   assert(found <= queues_.capacity());
   next = queues_.acquire();
-  stages_.run("compact_impulse", chunks, segment.count(), segment.begin, segment.count(), queues_.capacity(), queues_.flags,
-              queues_.totals, queues_.impulses, queue, next);
+  stages_.run("compact_impulse", chunks, segment.count(), segment.begin, segment.count(), queues_.capacity(),
+              queues_.flags, queues_.totals, queues_.impulses, queue, next);
   tally_.impulse += found;
   tally_.produced += found;
   return found;
 }
 
 void Wavefront::accumulate(const Buffer& queue, Segment segment) {
-  stages_.run("accumulate", segment.count(), segment.count(), segment.begin, segment.count(), queues_.capacity(), queue,
-              queues_.entryRadiance, queues_.sampleRadiance);
+  stages_.run("accumulate", segment.count(), segment.count(), segment.begin, segment.count(),
+              queues_.capacity(), queue, queues_.entryRadiance, queues_.sampleRadiance);
 }
 
 void Wavefront::film() {

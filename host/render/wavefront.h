@@ -1,4 +1,5 @@
-// The wavefront loop: batches of samples through the stages, bounce by bounce. The only file that launches kernels.
+// The wavefront loop: batches of samples through the stages, bounce by bounce. The only file that launches
+// kernels.
 #pragma once
 
 #include <cstdint>
@@ -32,12 +33,14 @@ struct WavefrontSetup {
 class Wavefront {
  public:
   /// `film`, `aovs`, `pixelOrder`: of the whole picture. `aovs` may be empty.
-  Wavefront(Compute& compute, StageRunner& stages, RayQueues& queues, const WavefrontSetup& setup, const Buffer& pixelOrder,
-            const Buffer& film, const Buffer& aovs);
+  Wavefront(Compute& compute, StageRunner& stages, RayQueues& queues, const WavefrontSetup& setup,
+            const Buffer& pixelOrder, const Buffer& film, const Buffer& aovs);
 
-  /// Traces samples [firstSample, firstSample + samples) of every pixel and adds them to the film; the picture's bits
-  /// do not depend on how samples are split into calls. `progress(samplesDone)` is called after each batch.
-  void trace(std::uint32_t firstSample, std::uint32_t samples, const std::function<void(std::uint64_t)>& progress);
+  /// Traces samples [firstSample, firstSample + samples) of every pixel and adds them to the film; the
+  /// picture's bits do not depend on how samples are split into calls. `progress(samplesDone)` is called
+  /// after each batch.
+  void trace(std::uint32_t firstSample, std::uint32_t samples,
+             const std::function<void(std::uint64_t)>& progress);
 
   const RayTally& tally() const { return tally_; }
   std::uint32_t nonFinite();

@@ -116,7 +116,9 @@ void addDefaults(Scene& scene, Notices& notices, bool lightEmitters) {
   if (!scene.lights.empty() || !isBlack) return;
   if (!lightEmitters && hasEmitters(scene)) {
     if (hasLitSurfaces(scene))
-      notices.note("no light in the file, only surfaces that glow, and those light nothing: --default-lights adds a sun");
+      notices.note(
+          "no light in the file, only surfaces that glow, and those light nothing: --default-lights adds a "
+          "sun");
     return;
   }
   const Camera& eye = scene.cameras.front();

@@ -20,8 +20,9 @@ struct LoadOptions {
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices);
 
 /// A camera that frames the scene where it has none; a sun with shadows plus a fill light without, and a dim
-/// constant background, where it has neither lights nor emitters nor a background. Both are noted. `lightEmitters`: a
-/// file with emitters gets the lights too; without it a note says that emitters alone light nothing.
+/// constant background, where it has neither lights nor emitters nor a background. Both are noted.
+/// `lightEmitters`: a file with emitters gets the lights too; without it a note says that emitters alone
+/// light nothing.
 void addDefaults(Scene& scene, Notices& notices, bool lightEmitters = false);
 
 }  // namespace whittle

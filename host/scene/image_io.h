@@ -21,7 +21,8 @@ struct FloatImage {
   std::vector<float> pixels;  ///< width·height·channels
 };
 
-/// Decodes a PNG/JPEG/… held in memory (a texture inside a .glb) to 8-bit RGBA. Throws InputError naming `name`.
+/// Decodes a PNG/JPEG/… held in memory (a texture inside a .glb) to 8-bit RGBA. Throws InputError naming
+/// `name`.
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name);
 /// Reads an image file to 8-bit RGBA. Throws InputError.
 Image readImage(const std::filesystem::path& path);
@@ -32,16 +33,17 @@ FloatImage readFloatImage(const std::filesystem::path& path);
 /// Key and value written into the file's metadata (EXR attributes, PNG text).
 using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 
-/// Writes linear floats as .exr (32-bit float, zip). The file appears whole or not at all: it is written under
-/// another name beside its own and renamed. Throws std::runtime_error on a write failure, InputError on an unknown extension or
-/// a folder that does not exist.
+/// Writes linear floats as .exr (32-bit float, zip). The file appears whole or not at all: it is written
+/// under another name beside its own and renamed. Throws std::runtime_error on a write failure, InputError on
+/// an unknown extension or a folder that does not exist.
 void writeExr(const std::filesystem::path& path, const FloatImage& image, const ImageMetadata& metadata,
               const std::vector<std::string>& channelNames = {});
-/// Writes 8-bit RGB (width·height·3 bytes, already tone-mapped and sRGB-encoded) as .png or .jpg; same guarantees.
+/// Writes 8-bit RGB (width·height·3 bytes, already tone-mapped and sRGB-encoded) as .png or .jpg; same
+/// guarantees.
 void writeRgb8(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb,
                const ImageMetadata& metadata);
-/// Throws InputError unless `path` has an extension that can be written and its folder exists and is writable:
-/// called before a render starts, so that nothing is lost at its end.
+/// Throws InputError unless `path` has an extension that can be written and its folder exists and is
+/// writable: called before a render starts, so that nothing is lost at its end.
 void checkWritable(const std::filesystem::path& path);
 
 }  // namespace whittle

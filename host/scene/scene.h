@@ -1,6 +1,6 @@
 // The scene as plain data: what the loader fills, the analysis reads, the device and the reference trace.
-// World space throughout: metres, right-handed, +Y up, as in glTF 2.0. Instances are baked into world-space triangles.
-// It knows neither glTF nor OpenCL nor image files.
+// World space throughout: metres, right-handed, +Y up, as in glTF 2.0. Instances are baked into world-space
+// triangles. It knows neither glTF nor OpenCL nor image files.
 #pragma once
 
 #include <array>
@@ -12,8 +12,9 @@
 
 namespace whittle {
 
-/// An 8-bit image, row 0 at the top (glTF's v = 0). `texels` holds width·height·4 bytes RGBA, not premultiplied.
-/// Whether the colour channels are sRGB-encoded is decided by the slot that uses it, not by the image.
+/// An 8-bit image, row 0 at the top (glTF's v = 0). `texels` holds width·height·4 bytes RGBA, not
+/// premultiplied. Whether the colour channels are sRGB-encoded is decided by the slot that uses it, not by
+/// the image.
 struct Image {
   std::string name;
   int width = 0;
@@ -49,11 +50,13 @@ struct Material {
   TextureSlot metallicRoughnessTexture;
   float normalScale = 1.0F;
   TextureSlot normalTexture;
-  float occlusionStrength = 1.0F;  ///< read and kept, not used: occlusion dims ambient light, and Whitted has none
+  float occlusionStrength =
+      1.0F;  ///< read and kept, not used: occlusion dims ambient light, and Whitted has none
   TextureSlot occlusionTexture;
   glm::vec3 emission{0.0F};  ///< W/(m² sr): emissiveFactor · emissiveStrength; texture is sRGB, multiplied
   TextureSlot emissionTexture;
-  float ior = 1.5F;  ///< ratio of the indices inside over outside, across this interface; 0 means "Fresnel = 1"
+  float ior =
+      1.5F;  ///< ratio of the indices inside over outside, across this interface; 0 means "Fresnel = 1"
   float specular = 1.0F;  ///< KHR_materials_specular; texture: alpha channel
   TextureSlot specularTexture;
   glm::vec3 specularColor{1.0F};  ///< texture is sRGB
@@ -85,11 +88,11 @@ struct Light {
   std::string name;
   LightKind kind = LightKind::Point;
   glm::vec3 intensity{1.0F};
-  glm::vec3 position{0.0F};           ///< world
-  glm::vec3 direction{0, 0, -1};      ///< world, unit: the way the light shines
+  glm::vec3 position{0.0F};                              ///< world
+  glm::vec3 direction{0, 0, -1};                         ///< world, unit: the way the light shines
   float range = std::numeric_limits<float>::infinity();  ///< metres
-  float innerConeAngle = 0.0F;        ///< radians, half angle; full intensity inside
-  float outerConeAngle = 0.785398163F;  ///< radians, half angle; dark outside
+  float innerConeAngle = 0.0F;                           ///< radians, half angle; full intensity inside
+  float outerConeAngle = 0.785398163F;                   ///< radians, half angle; dark outside
   bool castsShadows = true;
 };
 

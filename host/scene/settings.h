@@ -1,4 +1,5 @@
-// Everything a user can choose about a render, once: the command line, the statistics file and the window show the same.
+// Everything a user can choose about a render, once: the command line, the statistics file and the window
+// show the same.
 #pragma once
 
 #include <cstdint>
@@ -13,28 +14,29 @@ enum class ImpulseMode : std::uint8_t { All, One };
 enum class Lanes : std::uint8_t { Auto, One, Eight };
 
 struct Settings {
-  int width = 640;    ///< pixels
-  int height = 360;   ///< pixels
+  int width = 640;           ///< pixels
+  int height = 360;          ///< pixels
   std::string camera = "0";  ///< name or index
-  int bounces = 8;        ///< backward tracing steps; 1 = direct light only
-  int raysPerPixel = 1;   ///< 1 = through the pixel's centre
+  int bounces = 8;           ///< backward tracing steps; 1 = direct light only
+  int raysPerPixel = 1;      ///< 1 = through the pixel's centre
   bool shadows = true;
   Search search = Search::Auto;
   Sampler sampler = Sampler::Random;
   std::uint32_t seed = 0;
-  Lanes lanes = Lanes::Auto;  ///< rays for each work item of the searches; auto: eight on a CPU, one elsewhere
+  Lanes lanes =
+      Lanes::Auto;  ///< rays for each work item of the searches; auto: eight on a CPU, one elsewhere
   ImpulseMode impulses = ImpulseMode::All;
-  std::string device;           ///< selector; empty: the first usable device, CPU first
-  int threads = 0;              ///< CPU devices; 0: all
-  int wavefront = 1 << 18;      ///< rays in flight
-  int workGroup = 0;            ///< work items; 0: chosen for the device
-  std::optional<float> bump;    ///< metres; unset: derived from the scene at each hit
-  float mirrorRoughness = 0.2F; ///< a surface smoother than this reflects and refracts as a mirror
+  std::string device;            ///< selector; empty: the first usable device, CPU first
+  int threads = 0;               ///< CPU devices; 0: all
+  int wavefront = 1 << 18;       ///< rays in flight
+  int workGroup = 0;             ///< work items; 0: chosen for the device
+  std::optional<float> bump;     ///< metres; unset: derived from the scene at each hit
+  float mirrorRoughness = 0.2F;  ///< a surface smoother than this reflects and refracts as a mirror
   bool keepAllFeatures = false;
   double timeLimit = 0.0;    ///< seconds of rendering after which no further pass starts; 0: none
   double targetError = 0.0;  ///< stop once the estimated RMSE of the picture is below; 0: never
   bool aovs = false;         ///< keep depth, normal, albedo and primitive of each pixel's first sample
-  float exposure = 0.0F;        ///< stops, for .png/.jpg only
+  float exposure = 0.0F;     ///< stops, for .png/.jpg only
 };
 
 }  // namespace whittle

@@ -1,5 +1,6 @@
-// Every struct and queue layout that host and device both read. Only 4-byte scalars and plain arrays of them, so that
-// alignment and padding cannot differ; sizes are asserted on the host and asked of the device by a test.
+// Every struct and queue layout that host and device both read. Only 4-byte scalars and plain arrays of them,
+// so that alignment and padding cannot differ; sizes are asserted on the host and asked of the device by a
+// test.
 #ifndef WHITTLE_LAYOUT_H
 #define WHITTLE_LAYOUT_H
 
@@ -9,7 +10,9 @@ namespace whittle::device {
 using uint = std::uint32_t;
 #define WHITTLE_STRUCT(Name) struct Name
 #else
-#define WHITTLE_STRUCT(Name) typedef struct Name Name; struct Name
+#define WHITTLE_STRUCT(Name) \
+  typedef struct Name Name;  \
+  struct Name
 #endif
 
 // Two children, boxes kept in the parent: one 64-byte line decides both. Mirrors whittle::TreeNode.
@@ -20,8 +23,8 @@ WHITTLE_STRUCT(Node) {
   int pad[2];
 };
 
-#define TRIANGLE_MASKED 1u     // alpha MASK: a hit must pass the alpha test
-#define TRIANGLE_FILTERS 2u    // lets some light through: shadow rays go on, dimmed
+#define TRIANGLE_MASKED 1u   // alpha MASK: a hit must pass the alpha test
+#define TRIANGLE_FILTERS 2u  // lets some light through: shadow rays go on, dimmed
 
 // A triangle in leaf order, corners in world space.
 WHITTLE_STRUCT(DeviceTriangle) {
@@ -125,12 +128,12 @@ WHITTLE_STRUCT(Batch) {
   uint samples;
 };
 
-// Queues are struct-of-arrays: plane p of entry i is queue[p * capacity + i]. Buffers are padded by QUEUE_PADDING
-// entries so that a packet may load past the end.
+// Queues are struct-of-arrays: plane p of entry i is queue[p * capacity + i]. Buffers are padded by
+// QUEUE_PADDING entries so that a packet may load past the end.
 #define QUEUE_PADDING 16
 
-// Ray queue: origin (m), direction (unit), throughput (RGB), slot of its sample (uint bits). Entries of one sample
-// are neighbours.
+// Ray queue: origin (m), direction (unit), throughput (RGB), slot of its sample (uint bits). Entries of one
+// sample are neighbours.
 #define RAY_O 0
 #define RAY_D 3
 #define RAY_THROUGHPUT 6
@@ -163,7 +166,8 @@ WHITTLE_STRUCT(Batch) {
 #define ENTRY_IMPULSE0 2u
 #define ENTRY_IMPULSE1 4u
 
-// Film planes for each pixel, in the pixel order: compensated sums of RGB, and of luminance squared for the error estimate.
+// Film planes for each pixel, in the pixel order: compensated sums of RGB, and of luminance squared for the
+// error estimate.
 #define FILM_SUM 0
 #define FILM_COMPENSATION 3
 #define FILM_SQUARES 6

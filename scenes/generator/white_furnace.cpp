@@ -1,6 +1,6 @@
-// White furnace: lossless mirrors and clear glass in uniform radiance 1 without lights. Every pixel should come
-// out as 1: what is missing is the last bounce, and, at outlines of the tessellated glass, refraction that
-// fails at the facet. No block of glass: one whose sides meet at right angles can hold a ray for ever.
+// White furnace: lossless mirrors and clear glass in uniform radiance 1 without lights. Every pixel should
+// come out as 1: what is missing is the last bounce, and, at outlines of the tessellated glass, refraction
+// that fails at the facet. No block of glass: one whose sides meet at right angles can hold a ray for ever.
 #include "scenes.h"
 
 namespace generator {

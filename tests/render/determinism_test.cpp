@@ -114,7 +114,7 @@ TEST_P(Determinism, Threads) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Determinism,
                          ::testing::Values(Subject{"cornell_box", 8, 300, 24}, Subject{"nested_glass", 16, 48, 27},
                                            Subject{"textured", 8, 300, 24}),
-                         [](const auto& info) { return std::string(info.param.scene); });
+                         [](const auto& subject) { return std::string(subject.param.scene); });
 
 }  // namespace
 }  // namespace whittle::test

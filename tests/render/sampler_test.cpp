@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(All, Samplers,
                                            SamplerCase{"sobol4", Sampler::Sobol, 4}, SamplerCase{"sobol16", Sampler::Sobol, 16},
                                            SamplerCase{"one1", Sampler::Random, 1, ImpulseMode::One},
                                            SamplerCase{"one16", Sampler::Sobol, 16, ImpulseMode::One}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& one) { return one.param.name; });
 
 double meanLuminance(const FloatImage& image) {
   double sum = 0;

@@ -223,7 +223,8 @@ TEST(GltfDefaults, LightsAreAddedOnlyWhereNothingShines) {
     b.json["scenes"][0]["extras"] = extras;
     return b.load({.sceneName = {}, .defaultLights = always});
   };
-  EXPECT_EQ(lightsWith({{"emissiveFactor", {0, 1, 0}}}, Json::object(), true).lights.size(), 2U) << "asked for";
+  EXPECT_EQ(lightsWith({{"emissiveFactor", {0, 1, 0}}}, Json::object(), true).lights.size(), 2U)
+      << "asked for";
   EXPECT_EQ(lightsWith(Json::object(), Json::object()).lights.size(), 2U);
   EXPECT_EQ(lightsWith({{"emissiveFactor", {0, 1, 0}}}, Json::object()).lights.size(), 0U);
   EXPECT_EQ(

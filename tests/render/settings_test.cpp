@@ -1,0 +1,161 @@
+// What settings ask for, and the smallest and strangest pictures.
+#include <cmath>
+
+#include "single_rays.h"
+
+namespace whittle::test {
+namespace {
+
+bool allFinite(const FloatImage& image) {
+  return std::all_of(image.pixels.begin(), image.pixels.end(), [](float v) { return std::isfinite(v); });
+}
+
+TEST(Settings, OneBounceSendsOutNoImpulses) {
+  const RenderResult result = render(ownScene("cornell_box"), smallSettings(1));
+  EXPECT_EQ(result.stats.rays.impulse, 0U);
+  EXPECT_EQ(result.stats.rays.primary, 96U * 54);
+  EXPECT_EQ(stageOf(result.stats, "intersect").launches, 1U);
+  EXPECT_EQ(stageOf(result.stats, "compact_impulse").launches, 0U);
+  for (const auto& b : result.stats.buffers) EXPECT_NE(b.name, "impulses");
+}
+
+TEST(Settings, NoShadowsNoShadowRays) {
+  Settings settings = smallSettings(4);
+  const Scene scene = ownScene("cornell_box");
+  const RenderResult with = render(scene, settings);
+  settings.shadows = false;
+  const RenderResult without = render(scene, settings);
+  EXPECT_GT(with.stats.rays.shadow, 1000U);
+  EXPECT_EQ(without.stats.rays.shadow, 0U);
+  EXPECT_EQ(stageOf(without.stats, "occlude").launches, 0U);
+  for (const auto& b : without.stats.buffers) EXPECT_NE(b.name, "shadows");
+  for (std::size_t i = 0; i < with.radiance.pixels.size(); ++i)
+    ASSERT_GE(without.radiance.pixels[i], with.radiance.pixels[i] * 0.99999F) << "a shadow only takes light away";
+}
+
+TEST(Settings, ShadowsOfOneLightAlone) {
+  // A light that casts a shadow and one that does not: a roof takes away the first only.
+  Scene scene;
+  addFloor(scene, lambert(glm::vec3(1)), 0, true, 4);
+  addFloor(scene, lambert(glm::vec3(1)), 1, false, 4);
+  scene.lights = {pointLight({0, 2, 0}, 4), pointLight({0, 2, 0}, 1)};
+  scene.lights[1].castsShadows = false;
+  const RenderResult result = shoot(scene, {0, 0.5, 0}, {0, -1, 0}, 1);
+  EXPECT_NEAR(colorOf(result).x, 1.0 / 4 / M_PI, 1e-7);  // I/d²/π of the second
+  EXPECT_EQ(result.stats.rays.shadow, 1U);
+}
+
+TEST(Settings, AovsOfAFloorAndNothing) {
+  Scene scene;
+  addFloor(scene, emitter(glm::vec3(9)), -7, true, 0.5F);  // hidden: takes the first two indices
+  addQuad(scene, addMaterial(scene, lambert({0.25F, 0.5F, 0.75F})), {0, 0, -4}, {0, 0, 8}, {4, 0, 0});
+  Camera camera;
+  camera.orthographic = true;
+  camera.ymag = 1;
+  camera.position = {0, 3, 0};
+  aim(camera, {0, -1, 0});
+  scene.cameras = {camera};
+  Settings settings;
+  settings.width = settings.height = 2;
+  settings.aovs = true;
+  const RenderResult result = render(scene, settings);
+  const auto& aovs = result.aovs;
+  ASSERT_EQ(aovs.at("depth").pixels.size(), 4U);
+  for (const std::size_t right : {1U, 3U}) {
+    EXPECT_NEAR(aovs.at("depth").pixels[right], 3, 1e-6);
+    const float primitive = aovs.at("primitive").pixels[right];
+    EXPECT_TRUE(primitive == 2 || primitive == 3) << primitive;
+    const float* n = &aovs.at("normal").pixels[3 * right];
+    EXPECT_NEAR(n[0], 0, 1e-7);
+    EXPECT_NEAR(n[1], 1, 1e-7);
+    EXPECT_NEAR(n[2], 0, 1e-7);
+    EXPECT_EQ(aovs.at("albedo").pixels[3 * right + 2], 0.75F);
+  }
+  for (const std::size_t left : {0U, 2U}) {
+    EXPECT_EQ(aovs.at("depth").pixels[left], INFINITY);
+    EXPECT_EQ(aovs.at("primitive").pixels[left], -1);
+    EXPECT_EQ(aovs.at("normal").pixels[3 * left + 1], 0);
+    EXPECT_EQ(aovs.at("albedo").pixels[3 * left], 0);
+  }
+  settings.aovs = false;
+  EXPECT_TRUE(render(scene, settings).aovs.empty());
+}
+
+TEST(Settings, ATimeLimitStopsEarlyWithAWholePicture) {
+  Settings settings = smallSettings(2);
+  const Scene scene = ownScene("anti_aliasing");
+  settings.raysPerPixel = 1 << 20;
+  settings.timeLimit = 0.05;
+  const RenderResult limited = render(scene, settings);
+  EXPECT_LT(limited.stats.settings.raysPerPixel, 1 << 20);
+  settings.raysPerPixel = limited.stats.settings.raysPerPixel;
+  settings.timeLimit = 0;
+  // Random samples do not know how many there will be.
+  EXPECT_EQ(differingPixels(limited.radiance, render(scene, settings).radiance), 0U);
+}
+
+TEST(Settings, ATargetErrorStopsOnceItIsReached) {
+  Settings settings = smallSettings(2);
+  settings.raysPerPixel = 256;
+  const RenderResult first = render(ownScene("anti_aliasing"), [&] {
+    Settings four = settings;
+    four.raysPerPixel = 4;
+    return four;
+  }());
+  settings.targetError = first.stats.error.back().estimate / 2;  // about 16 samples at one over the root
+  const RenderResult enough = render(ownScene("anti_aliasing"), settings);
+  EXPECT_LE(enough.stats.error.back().estimate, settings.targetError);
+  EXPECT_GE(enough.stats.settings.raysPerPixel, 8);
+  EXPECT_LE(enough.stats.settings.raysPerPixel, 64);
+}
+
+TEST(Strange, NoTriangles) {
+  Scene scene;
+  scene.background.radiance = {0.25F, 0.5F, 1};
+  for (const Search search : {Search::Auto, Search::Tree}) {
+    scene.cameras.resize(1);
+    Settings settings;
+    settings.width = 5;
+    settings.height = 3;
+    settings.search = search;
+    settings.aovs = true;
+    const RenderResult result = render(scene, settings);
+    for (std::size_t i = 0; i < 15; ++i) EXPECT_EQ(colorOf(result, i), glm::vec3(0.25F, 0.5F, 1));
+    EXPECT_EQ(result.aovs.at("depth").pixels[7], INFINITY);
+  }
+  scene.lights.push_back(pointLight({0, 1, 0}, 3));
+  EXPECT_EQ(shot(scene, {0, 0, 0}, {0, 0, -1}, 8), glm::vec3(0.25F, 0.5F, 1));
+}
+
+TEST(Strange, OnePixelAndFieldsOfViewFromNothingToAll) {
+  Scene scene = ownScene("cornell_box");
+  const double degree = std::acos(-1.0) / 180;
+  for (const double fov : {1e-3, 42.0, 179.9}) {
+    scene.cameras[0].yfov = static_cast<float>(fov * degree);
+    for (const int size : {1, 16}) {
+      Settings settings = smallSettings(4);
+      settings.width = settings.height = size;
+      const RenderResult result = render(scene, settings);
+      EXPECT_TRUE(allFinite(result.radiance)) << fov;
+      EXPECT_EQ(result.stats.nonFinite, 0U) << fov;
+      EXPECT_EQ(result.stats.rays.primary, static_cast<std::uint64_t>(size) * size);
+      EXPECT_GT(colorOf(result).x + colorOf(result).y, 0) << "a closed room is lit everywhere; fov " << fov;
+    }
+  }
+}
+
+TEST(Strange, ACameraOnATriangle) {
+  Scene scene;
+  addFloor(scene, lambert(glm::vec3(0.5F)), 0, true, 4);
+  scene.background.radiance = glm::vec3(0.125F);
+  scene.lights.push_back(pointLight({0, 2, 0}, 4));
+  for (const glm::dvec3& w : {glm::dvec3(0, -1, 0), glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0), glm::dvec3(1, -0.1, 0.3)}) {
+    const RenderResult result = shoot(scene, {0.3, 0, 0.2}, w, 4);
+    EXPECT_TRUE(allFinite(result.radiance));
+    // t > 0: what the eye sits on is not seen.
+    EXPECT_EQ(colorOf(result), glm::vec3(0.125F)) << w.x << " " << w.y;
+  }
+}
+
+}  // namespace
+}  // namespace whittle::test

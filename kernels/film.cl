@@ -1,12 +1,17 @@
-// film: adds the finished samples of a batch to their pixels, in sample order, with compensated sums (Neumaier 1974).
+// film: adds the finished samples of a batch to their pixels, in sample order, with compensated sums (Neumaier 1974;
+// renormalised at each step, Dekker 1971).
 // A sample that is not finite is counted and left out.
 #include "lib/math.cl"
 
-/// sum + value, with the rounding error gathered in *compensation.
+/// sum + value; *compensation is what the result lacks. Errors of a long sum all lean the same way: the compensation is
+/// handed back to the sum at once, or it would itself grow until it rounds (6e-5 off after 10^6 samples).
 float compensatedAdd(float sum, float value, float* compensation) {
   const float result = sum + value;
-  *compensation += fabs(sum) >= fabs(value) ? (sum - result) + value : (value - result) + sum;
-  return result;
+  const float error = fabs(sum) >= fabs(value) ? (sum - result) + value : (value - result) + sum;
+  const float lacking = *compensation + error;
+  const float renormalised = result + lacking;
+  *compensation = (result - renormalised) + lacking;
+  return renormalised;
 }
 
 __kernel void film(const Batch batch, const uint capacity, const uint pixels, __global const float* sampleRadiance,

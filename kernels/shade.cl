@@ -123,7 +123,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
     if (s.flags & MATERIAL_UNLIT) radiance = s.alpha * s.baseColor * attenuation;
 #endif
 #if HAS(LIGHTS)
-    found |= directLight(&scene, &own, &s, -d, 0, attenuation, i, capacity, shadows, &radiance);
+    if (lights) found |= directLight(&scene, &own, &s, -d, 0, attenuation, i, capacity, shadows, &radiance);
 #endif
 #if HAS(IMPULSES)
     if (bounce < lastBounce) {

@@ -75,7 +75,8 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
           {"R,G,B|FILE",
            "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr",
            "as the file says"});
-  c.add_flag("--default-lights", o.defaultLights, "add a sun and a fill light to a file that has no lights but glows");
+  c.add_flag("--default-lights", o.defaultLights,
+             "add a sun and a fill light to a file that has no lights but glows");
 }
 
 void addPictureOptions(CLI::App& c, Settings& s) {

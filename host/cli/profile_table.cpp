@@ -55,8 +55,8 @@ std::string renderSummary(const Stats& s) {
       "{}×{}, {}, {}\n", s.settings.width, s.settings.height,
       formatSome(s.scene.triangles, "triangle", "triangles"),
       formatSome(static_cast<std::uint64_t>(s.settings.raysPerPixel), "ray per pixel", "rays per pixel"));
-  out += fmt::format("{} rays in {}: {:.2f} Mrays/s\n", formatInteger(s.rays.total()),
-                     formatSeconds(s.time.render), megaRate(s.rays.total(), s.time.render));
+  out += fmt::format("{} rays in {}: {}\n", formatInteger(s.rays.total()), formatSeconds(s.time.render),
+                     formatRate(megaRate(s.rays.total(), s.time.render) * 1e6));
   out += fmt::format("{} primary, {} impulse, {} shadow\n", formatInteger(s.rays.primary),
                      formatInteger(s.rays.impulse), formatInteger(s.rays.shadow));
   if (!s.error.empty() && s.error.back().raysPerPixel >= 2)

@@ -38,7 +38,7 @@ void ProgressBar::show(const std::string& line) {
 }
 
 void ProgressBar::phase(const std::string& text) {
-  if (on_) show(text + " …");
+  if (on_) show(columnsOf(text) + 2 < terminalColumns() ? text + " …" : "…");
 }
 
 void ProgressBar::update(double fraction, double seconds, const std::string& rate) {
@@ -48,8 +48,9 @@ void ProgressBar::update(double fraction, double seconds, const std::string& rat
   fraction = std::clamp(fraction, 0.0, 1.0);
   std::string text = fmt::format("{:3.0f} %", 100.0 * fraction);
   if (!rate.empty()) text += "  " + rate;
-  if (fraction > 0.0) text += "  " + formatSeconds(seconds / fraction - seconds) + " left";
-  const std::size_t columns = terminalColumns();
+  if (fraction > 0.0) text += "  " + formatSeconds(std::max(1.0, seconds / fraction - seconds)) + " left";
+  // The last two columns stay free for the "^C" that a terminal echoes.
+  const std::size_t columns = std::max<std::size_t>(terminalColumns(), 2) - 2;
   const std::size_t used = columnsOf(text) + 2;
   const int cells = used < columns ? static_cast<int>(std::min<std::size_t>(30, columns - used)) : 0;
   std::string bar;

@@ -75,7 +75,7 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
   hooks.phase = [&](const std::string& text) { bar.phase(text); };
   hooks.progress = [&](const RenderProgress& p) {
     bar.update(static_cast<double>(p.samplesDone) / static_cast<double>(p.samplesTotal), p.seconds,
-               fmt::format("{:.1f} Mrays/s", static_cast<double>(p.rays) / p.seconds * 1e-6));
+               formatRate(p.seconds > 0.0 ? static_cast<double>(p.rays) / p.seconds : 0.0));
   };
   try {
     return render(scene, o.settings, hooks);

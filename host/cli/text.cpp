@@ -46,6 +46,11 @@ std::string formatSeconds(double seconds) {
   return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
+std::string formatRate(double raysPerSecond) {
+  return raysPerSecond >= 1e6 ? fmt::format("{:.2f} Mrays/s", raysPerSecond * 1e-6)
+                              : fmt::format("{:.0f} krays/s", raysPerSecond * 1e-3);
+}
+
 std::string formatSome(std::uint64_t count, const std::string& one, const std::string& many) {
   if (count == 0) return "no " + many;
   return count == 1 ? "1 " + one : formatInteger(count) + " " + many;

@@ -13,6 +13,8 @@ std::string formatInteger(std::uint64_t count);
 std::string formatReal(double value);
 /// "0.8 s", "3:05 min", "2:10 h".
 std::string formatSeconds(double seconds);
+/// "12.3 Mrays/s", "850 krays/s".
+std::string formatRate(double raysPerSecond);
 /// "1 light", "3 lights", "no lights".
 std::string formatSome(std::uint64_t count, const std::string& one, const std::string& many);
 

@@ -97,6 +97,8 @@ TEST(Text, NumbersAndWords) {
   EXPECT_EQ(formatSome(0, "light", "lights"), "no lights");
   EXPECT_EQ(formatSome(1, "light", "lights"), "1 light");
   EXPECT_EQ(formatSome(1200, "light", "lights"), "1,200 lights");
+  EXPECT_EQ(formatRate(12.34e6), "12.34 Mrays/s");
+  EXPECT_EQ(formatRate(850e3), "850 krays/s");
   EXPECT_EQ(formatSeconds(0.25), "0.250 s");
   EXPECT_EQ(formatSeconds(185.0), "3:05 min");
   EXPECT_EQ(formatSeconds(7800.0), "2:10 h");

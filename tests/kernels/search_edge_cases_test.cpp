@@ -180,8 +180,6 @@ TEST(EdgeCases, NonFiniteRaysEndAndHarmNobody) {
     EXPECT_EQ(found, 0U) << form.name;
     RecordProperty(std::string(form.name) + " times",
                    fmt::format("good {:.4f} s, mixed {:.4f} s, bad {:.4f} s", timeGood, timeMixed, timeBad));
-    std::cerr << fmt::format("{}: good {:.4f} s, mixed {:.4f} s, bad {:.4f} s\n", form.name, timeGood,
-                             timeMixed, timeBad);
     // Ten times, and not the 2.5 to aim at: other work on the machine must not fail the test, a hang must.
     EXPECT_LT(timeBad, 10 * timeGood + 1.0) << form.name;
   }
@@ -212,10 +210,6 @@ TEST(EdgeCases, TeapotInAStadium) {
     }
     EXPECT_GT(hit, rays.size() / 2);
     EXPECT_GE(static_cast<double>(same), 0.9999 * static_cast<double>(hit)) << form.name;
-    detailBench.stages->collect();
-    stadiumBench.stages->collect();
-    std::cerr << fmt::format("{}: alone {:.4f} s, in the stadium {:.4f} s\n", form.name,
-                             detailBench.stages->stats()[0].seconds, stadiumBench.stages->stats()[0].seconds);
   }
 }
 

@@ -81,7 +81,10 @@ TEST(Watertight, TreeAndArrayAgreeAtOutermostCorners) {
       const glm::uvec3 t = mesh.triangles[rng.bits() % mesh.triangles.size()];
       const int corner = static_cast<int>(rng.bits() % 3);
       const glm::vec3 a = mesh.positions[t[corner]], b = mesh.positions[t[(corner + 1) % 3]];
-      const glm::vec3 o = a + distance * rng.direction();
+      glm::vec3 away = rng.direction();
+      if (i % 3 == 0) away[corner] *= std::pow(10.0F, rng.between(-9, 0));  // nearly along a face of the box
+      if (i % 3 == 1) away[corner] = 0;
+      const glm::vec3 o = a + distance * away;
       rays.push_back({o, glm::normalize(a + (i % 2 ? 0.0F : rng.unit()) * (b - a) - o)});
     }
     std::vector<TestHit> expected;

@@ -48,14 +48,13 @@ Scene sheets() {
   Scene scene;
   Material sheet = glass(4, false);
   sheet.baseColor = {0.9F, 0.95F, 1, 1};
+  sheet.emission = {0.2F, 0.1F, 0.15F};  // upwards only
   for (int i = 0; i < 48; ++i) addFloor(scene, sheet, 0.25F * static_cast<float>(i), true, 4);
-  scene.background.radiance = {0.5F, 0.7F, 1};
   Camera camera;
   camera.position = {0.3F, 6.1F, 0.2F};
   camera.yfov = 0.3F;
   aim(camera, {0.1, -1, 0.05});
   scene.cameras = {camera};
-  scene.materials[0].emission = {0.02F, 0.01F, 0.015F};
   return scene;
 }
 

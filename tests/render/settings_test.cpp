@@ -47,7 +47,7 @@ TEST(Settings, ShadowsOfOneLightAlone) {
 
 TEST(Settings, AovsOfAFloorAndNothing) {
   Scene scene;
-  addFloor(scene, emitter(glm::vec3(9)), -7, true, 0.5F);  // hidden: takes the first two indices
+  addQuad(scene, addMaterial(scene, emitter(glm::vec3(9))), {20, 0, 0}, {0, 0, 1}, {1, 0, 0});  // unseen: the first two indices
   addQuad(scene, addMaterial(scene, lambert({0.25F, 0.5F, 0.75F})), {0, 0, -4}, {0, 0, 8}, {4, 0, 0});
   Camera camera;
   camera.orthographic = true;

@@ -22,6 +22,8 @@ float3 dielectricReflectance(const Surfel* s, float cosine, float* cosT, int* to
     if (*total) return (float3)(1.0f);
   }
 #if HAS(SPECULAR_EXTENSION)
+  if (s->specularF90 == 1.0f && s->specularF0.x == r0 && s->specularF0.y == r0 && s->specularF0.z == r0)
+    return (float3)(r);  // untinted: the bits of the kernels without this extension
   const float3 scaled = s->specularF0 + ((float3)(s->specularF90) - s->specularF0) * ((r - r0) / (1.0f - r0));
   return clamp(scaled, 0.0f, 1.0f);  // dense dielectrics dip below R0
 #else
@@ -134,7 +136,7 @@ void impulsesAt(const RenderConstants* constants, const Surfel* s, float3 w_o, I
     return;
   }
 #endif
-#if HAS(MIRROR) || HAS(TRANSMISSION)
+#if HAS(MIRROR) || HAS(REFRACTION) || HAS(TRANSMISSION)
   const float cosine = fmin(dot3(s->n, w_o), 1.0f);
   float cosT;
   int total;

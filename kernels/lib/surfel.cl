@@ -59,10 +59,14 @@ float4 baseColorAt(const SceneView* scene, __global const DeviceMaterial* m, con
 }
 
 void loadCorners(const SceneView* scene, uint primitive, uint* corner) {
+#if HAS(VERTEX_NORMALS) || HAS(VERTEX_COLORS) || HAS(TEXTURES)
   __global const uint* c = scene->corners + (size_t)primitive * 3;
   corner[0] = c[0];
   corner[1] = c[1];
   corner[2] = c[2];
+#else
+  corner[0] = corner[1] = corner[2] = 0;  // nothing is interpolated, and the buffer is not there
+#endif
 }
 
 /// How much of the light a surface lets straight through to a shadow ray; README "Direct light".

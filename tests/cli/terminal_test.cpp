@@ -13,9 +13,9 @@ namespace whittle::test {
 namespace {
 
 /// What the program writes to a terminal of this width, both streams together; the exit status in `status`.
-std::string onTerminal(std::vector<std::string> args, unsigned short columns,
+std::string onTerminal(std::vector<std::string> args, std::size_t columns,
                        const std::filesystem::path& folder, int& status) {
-  winsize size{24, columns, 0, 0};
+  winsize size{24, static_cast<unsigned short>(columns), 0, 0};
   int terminal = -1;
   const pid_t pid = ::forkpty(&terminal, nullptr, nullptr, &size);
   if (pid == 0) {
@@ -38,7 +38,7 @@ std::string onTerminal(std::vector<std::string> args, unsigned short columns,
 }
 
 TEST(Terminal, ProgressFitsTheWindowAndIsWipedAtTheEnd) {
-  for (const unsigned short columns : {80, 40, 12}) {
+  for (const std::size_t columns : {80U, 40U, 12U}) {
     const Folder folder;
     int status = -1;
     const std::string text =
@@ -53,8 +53,7 @@ TEST(Terminal, ProgressFitsTheWindowAndIsWipedAtTheEnd) {
     ASSERT_GE(shown.size(), 2U) << "no progress";
     EXPECT_EQ(text.find("compiling kernels") != std::string::npos, columns > 12);
     EXPECT_NE(text.find(" %"), std::string::npos);
-    for (const auto& line : shown)
-      EXPECT_LE(cli::columnsOf(line), columns) << line;
+    for (const auto& line : shown) EXPECT_LE(cli::columnsOf(line), columns) << line;
     // After the last wipe comes the summary alone.
     EXPECT_EQ(text.substr(begin, 6), "32×24") << text.substr(begin);
   }

@@ -38,10 +38,11 @@ std::string buildLog(Compute& compute, std::uint64_t bits) {
   return compute.buildLog();
 }
 
-/// A floor, a light without shadows, nothing else.
+/// A floor with vertex normals, a light without shadows, nothing else.
 Scene plainScene() {
   Scene scene;
   addFloor(scene, lambert({0.5F, 0.25F, 0.75F}), 0, true, 4);
+  scene.normals.assign(scene.positions.size(), glm::vec3(0, 1, 0));  // what is interpolated needs corners
   scene.lights.push_back(pointLight({1, 2, 0.5F}, 20));
   scene.lights[0].castsShadows = false;
   Camera camera;
@@ -78,11 +79,8 @@ class ForcedKernels {
   std::filesystem::path folder_;
 };
 
-/// Features that change what host and kernel say to each other: which rays a work item takes, which search data there is,
-/// how many impulses are chosen, which buffer is written.
-bool isContract(Feature f) {
-  return f == Feature::PACKETS || f == Feature::TREE || f == Feature::ONE_IMPULSE;
-}
+/// Features that change what a work item is or which data it finds: the host must know of them.
+bool isContract(Feature f) { return f == Feature::PACKETS || f == Feature::TREE; }
 
 TEST(Features, EachOneThatASceneDoesNotNeedChangesNothing) {
   const Scene scene = plainScene();
@@ -108,10 +106,6 @@ TEST(Features, EachAloneAndAllTogetherCompileWithoutAWarning) {
   EXPECT_EQ(buildLog(compute, 0), "");
   EXPECT_EQ(buildLog(compute, ~std::uint64_t{0} >> 1), "");
 #define WHITTLE_BUILD(name, bit, text) EXPECT_EQ(buildLog(compute, std::uint64_t{1} << (bit)), "") << (text);
-  WHITTLE_FEATURES(WHITTLE_BUILD)
-#undef WHITTLE_BUILD
-#define WHITTLE_BUILD(name, bit, text) \
-  EXPECT_EQ(buildLog(compute, (~std::uint64_t{0} >> 1) & ~(std::uint64_t{1} << (bit))), "") << "all but " << (text);
   WHITTLE_FEATURES(WHITTLE_BUILD)
 #undef WHITTLE_BUILD
 }

@@ -104,6 +104,7 @@ std::string statsText(const RenderOptions& o, const Stats& stats) {
   };
   s["scene"] = path(o.scene.scene);
   s["background"] = path(o.scene.background);
+  s["defaultLights"] = o.scene.defaultLights;
   s["output"] = nlohmann::ordered_json::array();
   for (const auto& file : o.outputs) s["output"].push_back(file.string());
   s["aov"] = o.aovTexts;

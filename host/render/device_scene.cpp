@@ -99,6 +99,13 @@ std::uint32_t triangleFlags(const Material& m) {
   return (m.alphaMode == AlphaMode::Mask ? TRIANGLE_MASKED : 0U) | (filters ? TRIANGLE_FILTERS : 0U);
 }
 
+/// False for corners on one line, by the differences that the kernels see; products of two floats are exact
+/// in double.
+bool hasArea(const glm::vec3& p0, const glm::vec3& p1, const glm::vec3& p2) {
+  const glm::dvec3 a(p1 - p0), b(p2 - p0);
+  return a.y * b.z != a.z * b.y || a.z * b.x != a.x * b.z || a.x * b.y != a.y * b.x;
+}
+
 /// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
 std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene,
                                                   const std::vector<std::uint32_t>& order) {
@@ -108,6 +115,11 @@ std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene,
     copy3(out[i].v[0], scene.positions[t.v0]);
     copy3(out[i].v[1], scene.positions[t.v1]);
     copy3(out[i].v[2], scene.positions[t.v2]);
+    // Rounding could open a triangle without area in the plane across a ray: as a point nothing hits it.
+    if (!hasArea(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2])) {
+      copy3(out[i].v[1], scene.positions[t.v0]);
+      copy3(out[i].v[2], scene.positions[t.v0]);
+    }
     out[i].primitive = order[i];
     out[i].material = t.material;
     out[i].flags = triangleFlags(scene.materials[t.material]);

@@ -146,7 +146,7 @@ int8 intersectPacket(const Packet* p, __global const DeviceTriangle* triangle, f
     *b2 = select(*b2, b2k, m);
     met |= m;
   }
-  return anyLane(met) && !hasArea(triangle) ? (int8)(0) : met;
+  return met;
 }
 
 void testNearestPacket(const SceneView* scene, const Packet* p, uint index, PacketHit* best) {

@@ -23,13 +23,6 @@ int isFiniteRay(const Ray* r) {
   return isFinite3((float3)(r->o[0], r->o[1], r->o[2])) && isFinite3((float3)(r->d[0], r->d[1], r->d[2]));
 }
 
-/// False for corners on one line: rounding can open such a triangle in the plane across the ray.
-int hasArea(__global const DeviceTriangle* triangle) {
-  const float3 a = load3(triangle->v[1]) - load3(triangle->v[0]), b = load3(triangle->v[2]) - load3(triangle->v[0]);
-  return differenceOfProducts(a.y, b.z, a.z, b.y) != 0.0f || differenceOfProducts(a.z, b.x, a.x, b.z) != 0.0f ||
-         differenceOfProducts(a.x, b.y, a.y, b.x) != 0.0f;
-}
-
 Ray makeRay(float3 o, float3 d) {
   Ray r;
   r.o[0] = o.x, r.o[1] = o.y, r.o[2] = o.z;
@@ -45,7 +38,8 @@ Ray makeRay(float3 o, float3 d) {
   return r;
 }
 
-/// True if the ray meets the triangle at 0 < t <= tMax; `hit` then holds distance and barycentrics.
+/// True if the ray meets the triangle at 0 < t <= tMax; `hit` then holds distance and barycentrics. The host turns a
+/// triangle without area into a point (det 0, t not a number): rounding could open it in the plane across the ray.
 int intersectTriangle(const Ray* r, __global const DeviceTriangle* triangle, float tMax, Candidate* hit) {
   const float az = triangle->v[0][r->kz] - r->o[r->kz];
   const float bz = triangle->v[1][r->kz] - r->o[r->kz];
@@ -63,7 +57,7 @@ int intersectTriangle(const Ray* r, __global const DeviceTriangle* triangle, flo
   if (!inside) return 0;
   const float det = u + v + w;
   const float t = fma(u, az, fma(v, bz, w * cz)) * r->sz / det;
-  if (!(t > 0.0f && t <= tMax) || !hasArea(triangle)) return 0;
+  if (!(t > 0.0f && t <= tMax)) return 0;
   hit->t = t;
   hit->b1 = v / det;
   hit->b2 = w / det;

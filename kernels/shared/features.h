@@ -52,7 +52,7 @@
 
 #ifdef __OPENCL_VERSION__
 // Preprocessor arithmetic is 64 bits wide; the macro above cannot define macros, so the bits stand here again
-// by name. tests/render/features_test.cpp compares the two lists.
+// by name. tests/kernels/layout_test.cpp compares the two lists.
 #define BIT_PACKETS 0
 #define BIT_TREE 1
 #define BIT_SHADOWS 2

@@ -18,12 +18,13 @@ namespace {
 using reference::Vec2;
 using reference::Vec3;
 
-/// How far eye rays are moved, radians. A direction in single precision is off by up to 1.5e-7; a hit 5 m away, rounded,
-/// moves by 3e-7 m, which on a ball of 0.25 m turns the next ray by as much as 2e-6.
+/// How far eye rays are moved, radians. A direction in single precision is off by up to 1.5e-7; a hit 5 m
+/// away, rounded, moves by 3e-7 m, which on a ball of 0.25 m turns the next ray by as much as 2e-6.
 constexpr double kMove = 2e-6;
 /// Moved copies of each ray: all miss an edge that lies beside the ray with probability 2^-32.
 constexpr int kMoved = 32;
-/// The same for a light, m: it may lie in a surface, and rounding then decides whether that surface is in its way.
+/// The same for a light, m: it may lie in a surface, and rounding then decides whether that surface is in its
+/// way.
 constexpr float kMoveLight = 1e-6F;
 /// Share of the mean radiance beyond which a pixel is an outlier: ten times the RMSE that is asked for.
 constexpr double kOutlier = 1e-3;
@@ -46,7 +47,8 @@ class Surroundings {
     Neighbourhood around;
     Rng rng(pixel);
     for (int i = 0; i < copies; ++i) {
-      for (std::size_t k = 0; k < lights_.size(); ++k) scene_.lights[k].position = lights_[k].position + rng.inBox(kMoveLight);
+      for (std::size_t k = 0; k < lights_.size(); ++k)
+        scene_.lights[k].position = lights_[k].position + rng.inBox(kMoveLight);
       RayCounts rays;
       const Vec3 radiance = trace(static_cast<std::uint32_t>(pixel), rng, rays);
       around.low = glm::min(around.low, radiance);
@@ -62,10 +64,12 @@ class Surroundings {
  private:
   Vec3 trace(std::uint32_t pixel, Rng& rng, RayCounts& rays) const {
     const Settings& s = world_.settings;
-    const auto width = static_cast<std::uint32_t>(s.width), count = static_cast<std::uint32_t>(s.raysPerPixel);
+    const auto width = static_cast<std::uint32_t>(s.width),
+               count = static_cast<std::uint32_t>(s.raysPerPixel);
     Vec3 sum(0);
     for (std::uint32_t k = 0; k < count; ++k) {
-      const Vec2 at = Vec2(pixel % width, pixel / width) + reference::samplePosition(s.sampler, pixel, k, count, s.seed);
+      const Vec2 at =
+          Vec2(pixel % width, pixel / width) + reference::samplePosition(s.sampler, pixel, k, count, s.seed);
       reference::Ray ray = reference::eyeRay(world_.camera, at, s.width, s.height);
       ray.direction = glm::normalize(ray.direction + kMove * Vec3(rng.inBox(1)));
       sum += reference::Li(world_, {pixel, k, rays}, ray, 1, Vec3(1));
@@ -92,7 +96,8 @@ bool sameHit(const Agreement& a, std::size_t i) {
 /// Whether `found` lies in what the reference says nearby; the moved rays need not have met its extremes.
 bool explains(const Neighbourhood& around, const Vec3& found, double mean) {
   const Vec3 slack = 0.5 * (around.high - around.low) + Vec3(kOutlier * mean);
-  return glm::all(glm::greaterThanEqual(found, around.low - slack)) && glm::all(glm::lessThanEqual(found, around.high + slack));
+  return glm::all(glm::greaterThanEqual(found, around.low - slack)) &&
+         glm::all(glm::lessThanEqual(found, around.high + slack));
 }
 
 std::uint64_t apart(std::uint64_t a, std::uint64_t b) { return a > b ? a - b : b - a; }
@@ -116,18 +121,20 @@ void judgePixels(Surroundings& surroundings, Agreement& a) {
     addLoose(a, around);
     if (explains(around, found, a.mean)) continue;
     ++a.unexplained;
-    fmt::print("pixel ({}, {}): {} {} {}, reference {} {} {}, nearby {} {} {} to {} {} {}\n", i % a.reference.radiance.width,
-               i / a.reference.radiance.width, found.x, found.y, found.z, expected.x, expected.y, expected.z, around.low.x,
-               around.low.y, around.low.z, around.high.x, around.high.y, around.high.z);
+    fmt::print("pixel ({}, {}): {} {} {}, reference {} {} {}, nearby {} {} {} to {} {} {}\n",
+               i % a.reference.radiance.width, i / a.reference.radiance.width, found.x, found.y, found.z,
+               expected.x, expected.y, expected.z, around.low.x, around.low.y, around.low.z, around.high.x,
+               around.high.y, around.high.z);
   }
   a.rmse = std::sqrt(a.rmse / static_cast<double>(std::max<std::size_t>(1, a.pixels - a.outliers)));
 }
 
-/// A light in the plane of a surface shines on it or not, by rounding, without a difference that is seen. Where the
-/// outliers do not account for the rays, all pixels are asked.
+/// A light in the plane of a surface shines on it or not, by rounding, without a difference that is seen.
+/// Where the outliers do not account for the rays, all pixels are asked.
 void judgeCounts(Surroundings& surroundings, Agreement& a) {
   const auto& rays = a.kernel.stats.rays;
-  if (apart(rays.impulse, a.reference.rays.impulse) <= a.looseImpulse && apart(rays.shadow, a.reference.rays.shadow) <= a.looseShadow)
+  if (apart(rays.impulse, a.reference.rays.impulse) <= a.looseImpulse &&
+      apart(rays.shadow, a.reference.rays.shadow) <= a.looseShadow)
     return;
   a.looseImpulse = a.looseShadow = 0;
   for (std::size_t i = 0; i < a.pixels; ++i) addLoose(a, surroundings.of(i, 8));
@@ -150,10 +157,11 @@ Agreement compareWithReference(const Scene& scene, Settings settings) {
 void expectAgreement(const Agreement& a, const std::string& name, std::size_t outliers) {
   const auto& rays = a.kernel.stats.rays;
   const RayCounts& expected = a.reference.rays;
-  fmt::print("{}: mean {:.4g}, rmse/mean {:.2e}, other hits {}, outliers {}, impulse {} (reference {}, loose {}), "
-             "shadow {} (reference {}, loose {})\n",
-             name, a.mean, a.rmse / a.mean, a.differentHits, a.outliers, rays.impulse, expected.impulse, a.looseImpulse,
-             rays.shadow, expected.shadow, a.looseShadow);
+  fmt::print(
+      "{}: mean {:.4g}, rmse/mean {:.2e}, other hits {}, outliers {}, impulse {} (reference {}, loose {}), "
+      "shadow {} (reference {}, loose {})\n",
+      name, a.mean, a.rmse / a.mean, a.differentHits, a.outliers, rays.impulse, expected.impulse,
+      a.looseImpulse, rays.shadow, expected.shadow, a.looseShadow);
   // A ray within rounding of a silhouette may take either side: one pixel of so small a picture.
   EXPECT_LE(a.differentHits, std::max<std::size_t>(1, a.pixels / 100000)) << name;
   EXPECT_LE(a.outliers, outliers) << name;

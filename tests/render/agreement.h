@@ -1,6 +1,7 @@
-// Kernels against the reference, pixel by pixel. Single precision moves a ray by some 1e-7 of its way; where that takes
-// it across an edge (of an object, a shadow, a texel, of something seen in a mirror) the two may differ by anything.
-// Such a pixel must be explained: the reference itself must jump as far when eye rays and lights are moved as little.
+// Kernels against the reference, pixel by pixel. Single precision moves a ray by some 1e-7 of its way; where
+// that takes it across an edge (of an object, a shadow, a texel, of something seen in a mirror) the two may
+// differ by anything. Such a pixel must be explained: the reference itself must jump as far when eye rays and
+// lights are moved as little.
 #pragma once
 
 #include <string>
@@ -25,8 +26,8 @@ struct Agreement {
 /// Renders both ways. settings.aovs is switched on.
 Agreement compareWithReference(const Scene& scene, Settings settings);
 
-/// What is asked of every scene: the same hits but for one pixel, at most `outliers` on edges, each explained, the rest
-/// within 1e-4 of the mean, and the same number of rays but for those of the outliers.
+/// What is asked of every scene: the same hits but for one pixel, at most `outliers` on edges, each
+/// explained, the rest within 1e-4 of the mean, and the same number of rays but for those of the outliers.
 void expectAgreement(const Agreement& agreement, const std::string& name, std::size_t outliers);
 
 }  // namespace whittle::test

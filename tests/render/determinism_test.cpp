@@ -1,6 +1,6 @@
 // The same bits whatever the threads, queues, work-groups, searches and passes.
-#include <cstdlib>
 #include <unistd.h>
+#include <cstdlib>
 
 #include "pictures.h"
 #include "scene/image_io.h"
@@ -94,15 +94,17 @@ TEST_P(Determinism, TenRepeatsAndPasses) {
 #ifdef WHITTLE_BINARY
 /// PoCL reads its number of threads once, so each takes a process of its own.
 TEST_P(Determinism, Threads) {
-  const auto folder = std::filesystem::temp_directory_path() / ("whittle_threads_" + std::to_string(getpid()));
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("whittle_threads_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   const RenderResult here = render(ownScene(GetParam().scene), settings());
   for (const int threads : {1, 2}) {
     const auto file = folder / "picture.exr";
-    const std::string command = std::string(WHITTLE_BINARY) + " render " + WHITTLE_SCENES + "/" + GetParam().scene +
-                                ".glb --quiet --width " + std::to_string(GetParam().width) + " --height " +
-                                std::to_string(GetParam().height) + " --bounces " + std::to_string(GetParam().bounces) +
-                                " --threads " + std::to_string(threads) + " -o " + file.string();
+    const std::string command =
+        std::string(WHITTLE_BINARY) + " render " + WHITTLE_SCENES + "/" + GetParam().scene +
+        ".glb --quiet --width " + std::to_string(GetParam().width) + " --height " +
+        std::to_string(GetParam().height) + " --bounces " + std::to_string(GetParam().bounces) +
+        " --threads " + std::to_string(threads) + " -o " + file.string();
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
     EXPECT_EQ(differingPixels(here.radiance, readFloatImage(file)), 0U) << threads << " threads";
     std::filesystem::remove(file);
@@ -112,7 +114,8 @@ TEST_P(Determinism, Threads) {
 #endif
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Determinism,
-                         ::testing::Values(Subject{"cornell_box", 8, 300, 24}, Subject{"nested_glass", 16, 48, 27},
+                         ::testing::Values(Subject{"cornell_box", 8, 300, 24},
+                                           Subject{"nested_glass", 16, 48, 27},
                                            Subject{"textured", 8, 300, 24}),
                          [](const auto& subject) { return std::string(subject.param.scene); });
 

@@ -1,5 +1,5 @@
-// Mirrors and glass on the device against their formulas: specular furnace, series between mirrors and in a slab,
-// refraction, total reflection, grazing light, absorption.
+// Mirrors and glass on the device against their formulas: specular furnace, series between mirrors and in a
+// slab, refraction, total reflection, grazing light, absorption.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -28,7 +28,8 @@ TEST(DeviceFurnace, NothingIsBrighterAndNearlyAllIsWhite) {
     ASSERT_LE(v, 1 + 2e-6 * kBounces);
     white += std::abs(v - 1) <= 2e-6 * kBounces;
   }
-  // Grazing light in the balls and what total reflection holds in the block leave later than at the last bounce.
+  // Grazing light in the balls and what total reflection holds in the block leave later than at the last
+  // bounce.
   EXPECT_GT(double(white), 0.9 * double(result.radiance.pixels.size()));
   EXPECT_GT(result.stats.rays.impulse, 20000U);
 }
@@ -43,7 +44,8 @@ TEST(DeviceFurnace, PlatesAndMirrorsAreInvisible) {
   for (const int bounces : {16, 32}) {
     for (const double x : {0.0, 0.5, 1.0}) {
       const glm::vec3 seen = shot(scene, {-20, 5, 0}, {x, -1, 0.1}, bounces);
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], 1, 2e-6 * bounces) << "x " << x << " bounces " << bounces;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(seen[c], 1, 2e-6 * bounces) << "x " << x << " bounces " << bounces;
     }
   }
 }
@@ -73,8 +75,8 @@ TEST(DeviceMirrors, WhatUnderflowsIsNotTracedOn) {
   EXPECT_GE(result.stats.rays.impulse, 12U) << "1e-36 is still a number";
 }
 
-/// A slab of `material` between y = 0 and −1; what comes from above is red, from below green, 1 each. Origins of
-/// secondary rays are 2^-20 of the slab's half side off it.
+/// A slab of `material` between y = 0 and −1; what comes from above is red, from below green, 1 each. Origins
+/// of secondary rays are 2^-20 of the slab's half side off it.
 Scene slabScene(const Material& material, float half = 50) {
   Scene scene;
   addFloor(scene, material, 0, true, half);
@@ -120,7 +122,8 @@ TEST(DeviceSlab, ShiftsALightRayAt45DegreesAndKeepsItsDirection) {
     return 8 * static_cast<double>(seen.x / seen.y) - 4;
   };
   const double shallow = metX(2), deep = metX(5);
-  // The undisturbed ray meets the ground at −3 + depth. The two bumps of 4e-6 m go along the normal; 8 m are rounded.
+  // The undisturbed ray meets the ground at −3 + depth. The two bumps of 4e-6 m go along the normal; 8 m are
+  // rounded.
   EXPECT_NEAR((-3 + 2 - shallow) * std::sqrt(0.5), 0.329142, 8e-6);
   EXPECT_NEAR(deep - shallow, 3, 4e-6) << "parallel to the entry";
 }
@@ -142,7 +145,8 @@ TEST(DeviceSlab, AbsorbsByBeersLaw) {
     Scene scene = slabScene(tinted, 4);
     scene.materials.back().emission = glm::vec3(1);
     const glm::vec3 seen = shot(scene, {0, 1, 0}, {1, -1, 0}, 8);
-    EXPECT_NEAR(seen.x, std::exp(-sigma * std::sqrt(2.0)), 4e-6) << sigma;  // the bump shortens the way by 5e-6 m
+    EXPECT_NEAR(seen.x, std::exp(-sigma * std::sqrt(2.0)), 4e-6)
+        << sigma;  // the bump shortens the way by 5e-6 m
     EXPECT_EQ(seen.y, 1) << sigma;
   }
 }
@@ -193,7 +197,8 @@ TEST(DeviceFresnel, GrazingLightIsReflectedAndNeverMoreThanAll) {
   double last = 0;
   for (int k = 0; k <= 4; ++k) {
     const double grazing = std::pow(10.0, -k) * kDegree;
-    const double r = reflectedShare(1.5F, {-20, 20 * std::tan(grazing), 0}, {std::cos(grazing), -std::sin(grazing), 0});
+    const double r =
+        reflectedShare(1.5F, {-20, 20 * std::tan(grazing), 0}, {std::cos(grazing), -std::sin(grazing), 0});
     EXPECT_LE(r, 1) << k;
     EXPECT_GT(r, last) << k;
     EXPECT_NEAR(r, fresnel(std::numbers::pi / 2 - grazing, 1.5), 2e-6) << k;

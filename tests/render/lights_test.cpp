@@ -20,11 +20,12 @@ Scene plane(const Material& material, const Light& light) {
 TEST(DeviceLights, InverseSquareOverALambertPlane) {
   for (const float h : {1e-3F, 0.25F, 1.0F, 8.0F, 1e3F, 1e6F}) {
     const float intensity = 5 * h * h;  // as bright for every height
-    const auto row = shootRowDown(plane(lambert(glm::vec3(0.6F)), pointLight({0, h, 0}, intensity)), 2, 40, 41, 1);
+    const auto row =
+        shootRowDown(plane(lambert(glm::vec3(0.6F)), pointLight({0, h, 0}, intensity)), 2, 40, 41, 1);
     for (std::size_t i = 0; i < 41; ++i) {
       const double x = static_cast<double>(i), height = h;
-      const double expected =
-          static_cast<double>(0.6F) * static_cast<double>(intensity) * height / (kPi * std::pow(height * height + x * x, 1.5));
+      const double expected = static_cast<double>(0.6F) * static_cast<double>(intensity) * height /
+                              (kPi * std::pow(height * height + x * x, 1.5));
       EXPECT_NEAR(colorOf(row, i).x / expected, 1, 1e-5) << "h " << h << " x " << x;
     }
     EXPECT_EQ(row.stats.rays.shadow, 41U) << h;

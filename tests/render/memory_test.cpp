@@ -1,4 +1,5 @@
-// Branching in bounded memory: queues are cut, nothing is dropped, and long runs of one sample are sliced alike.
+// Branching in bounded memory: queues are cut, nothing is dropped, and long runs of one sample are sliced
+// alike.
 #include "agreement.h"
 #include "kernels/shared/features.h"
 #include "kernels/shared/layout.h"
@@ -14,7 +15,8 @@ std::uint64_t queueBytes(const Stats& stats) {
   return sum;
 }
 
-/// A ray queue for each bounce, and the work space of one segment: planes of `capacity` entries, each padded, four bytes.
+/// A ray queue for each bounce, and the work space of one segment: planes of `capacity` entries, each padded,
+/// four bytes.
 std::uint64_t documentedBound(std::uint64_t capacity, std::uint64_t bounces) {
   const std::uint64_t workPlanes = HIT_PLANES + 3 + 3 + SHADOW_PLANES + 1 + 2 * IMPULSE_PLANES + 1;
   const std::uint64_t totals = capacity + 3;
@@ -43,7 +45,8 @@ TEST(BoundedMemory, NestedGlassSixteenDeep) {
   EXPECT_GT(large.stats.rays.impulse, 10U * 64 * 36) << "or there is nothing to cut";
 }
 
-/// Sheets of dense glass one above the other: every hit reflects and lets through, so that a ray becomes 2^(bounces − 1).
+/// Sheets of dense glass one above the other: every hit reflects and lets through, so that a ray becomes
+/// 2^(bounces − 1).
 Scene sheets() {
   Scene scene;
   Material sheet = glass(4, false);
@@ -68,7 +71,8 @@ TEST(BoundedMemory, LongRunsAreSlicedAlike) {
   const Stats& stats = agreement.kernel.stats;
   EXPECT_EQ(stats.rays.impulse, 32U * ((1U << 13) - 2)) << "each ray splits at each bounce";
   EXPECT_GT(stageOf(stats, "find_long_runs").launches, 0U);
-  // At bounce 10 a sample has 512 entries, two slices; each then grows and is sliced again: far more than 13 segments.
+  // At bounce 10 a sample has 512 entries, two slices; each then grows and is sliced again: far more than 13
+  // segments.
   EXPECT_GT(stageOf(stats, "intersect").launches, 13U + 2 * 32);
   settings.raysPerPixel = 3;
   const RenderResult three = render(sheets(), settings);
@@ -77,7 +81,9 @@ TEST(BoundedMemory, LongRunsAreSlicedAlike) {
     const RenderResult other = render(sheets(), settings);
     EXPECT_EQ(differingPixels(other.radiance, three.radiance), 0U) << wavefront;
     EXPECT_EQ(other.stats.dropped, 0U);
-    EXPECT_LE(queueBytes(other.stats), documentedBound(static_cast<std::uint64_t>(other.stats.settings.wavefront), 13)) << wavefront;
+    EXPECT_LE(queueBytes(other.stats),
+              documentedBound(static_cast<std::uint64_t>(other.stats.settings.wavefront), 13))
+        << wavefront;
   }
 }
 

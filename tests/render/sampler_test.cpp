@@ -32,10 +32,12 @@ TEST_P(Samplers, AgreeWithTheReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Samplers,
-                         ::testing::Values(SamplerCase{"random4", Sampler::Random, 4}, SamplerCase{"random16", Sampler::Random, 16},
+                         ::testing::Values(SamplerCase{"random4", Sampler::Random, 4},
+                                           SamplerCase{"random16", Sampler::Random, 16},
                                            SamplerCase{"stratified4", Sampler::Stratified, 4},
                                            SamplerCase{"stratified16", Sampler::Stratified, 16},
-                                           SamplerCase{"sobol4", Sampler::Sobol, 4}, SamplerCase{"sobol16", Sampler::Sobol, 16},
+                                           SamplerCase{"sobol4", Sampler::Sobol, 4},
+                                           SamplerCase{"sobol16", Sampler::Sobol, 16},
                                            SamplerCase{"one1", Sampler::Random, 1, ImpulseMode::One},
                                            SamplerCase{"one16", Sampler::Sobol, 16, ImpulseMode::One}),
                          [](const auto& one) { return one.param.name; });
@@ -57,7 +59,8 @@ TEST(OneImpulse, IsUnbiased) {
   settings.impulses = ImpulseMode::One;
   const RenderResult one = render(scene, settings);
   EXPECT_LT(one.stats.rays.impulse, all.stats.rays.impulse / 2) << "one branch instead of a tree";
-  // The same positions in the pixels, so only the choice differs; the estimate, RMS over pixels, counts the edges too.
+  // The same positions in the pixels, so only the choice differs; the estimate, RMS over pixels, counts the
+  // edges too.
   const double standardError = one.stats.error.back().estimate / std::sqrt(32.0 * 18.0);
   EXPECT_NEAR(meanLuminance(one.radiance), meanLuminance(all.radiance), 4 * standardError);
   EXPECT_LT(4 * standardError, 0.01 * meanLuminance(all.radiance)) << "or the test says little";

@@ -30,7 +30,8 @@ TEST(Settings, NoShadowsNoShadowRays) {
   EXPECT_EQ(stageOf(without.stats, "occlude").launches, 0U);
   for (const auto& b : without.stats.buffers) EXPECT_NE(b.name, "shadows");
   for (std::size_t i = 0; i < with.radiance.pixels.size(); ++i)
-    ASSERT_GE(without.radiance.pixels[i], with.radiance.pixels[i] * 0.99999F) << "a shadow only takes light away";
+    ASSERT_GE(without.radiance.pixels[i], with.radiance.pixels[i] * 0.99999F)
+        << "a shadow only takes light away";
 }
 
 TEST(Settings, ShadowsOfOneLightAlone) {
@@ -47,7 +48,8 @@ TEST(Settings, ShadowsOfOneLightAlone) {
 
 TEST(Settings, AovsOfAFloorAndNothing) {
   Scene scene;
-  addQuad(scene, addMaterial(scene, emitter(glm::vec3(9))), {20, 0, 0}, {0, 0, 1}, {1, 0, 0});  // unseen: the first two indices
+  addQuad(scene, addMaterial(scene, emitter(glm::vec3(9))), {20, 0, 0}, {0, 0, 1},
+          {1, 0, 0});  // unseen: the first two indices
   addQuad(scene, addMaterial(scene, lambert({0.25F, 0.5F, 0.75F})), {0, 0, -4}, {0, 0, 8}, {4, 0, 0});
   Camera camera;
   camera.orthographic = true;
@@ -149,7 +151,8 @@ TEST(Strange, ACameraOnATriangle) {
   addFloor(scene, lambert(glm::vec3(0.5F)), 0, true, 4);
   scene.background.radiance = glm::vec3(0.125F);
   scene.lights.push_back(pointLight({0, 2, 0}, 4));
-  for (const glm::dvec3& w : {glm::dvec3(0, -1, 0), glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0), glm::dvec3(1, -0.1, 0.3)}) {
+  for (const glm::dvec3& w :
+       {glm::dvec3(0, -1, 0), glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0), glm::dvec3(1, -0.1, 0.3)}) {
     const RenderResult result = shoot(scene, {0.3, 0, 0.2}, w, 4);
     EXPECT_TRUE(allFinite(result.radiance));
     // t > 0: what the eye sits on is not seen.

@@ -28,9 +28,10 @@ TEST_P(SharedScene, AgreesWithTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, SharedScene,
-    // Measured in brackets where it is above 5. Sponza [76]: coordinates of some dozen repeats of 1024 texels, so that single
-    // precision moves a lookup by 1e-3 texel and more. CornellBox-Original [13] and -Mirror [19]: the light lies in the top
-    // face of the short block. MultiUVTest [24]: next to black, so that a thousandth of the mean is 3e-6.
+    // Measured in brackets where it is above 5. Sponza [76]: coordinates of some dozen repeats of 1024
+    // texels, so that single precision moves a lookup by 1e-3 texel and more. CornellBox-Original [13] and
+    // -Mirror [19]: the light lies in the top face of the short block. MultiUVTest [24]: next to black, so
+    // that a thousandth of the mean is 3e-6.
     ::testing::Values(SharedCase{"sponza", "bench/crytek-sponza/crytek-sponza.glb", 150},
                       SharedCase{"teapot", "bench/teapot-full/teapot-full.glb"},
                       SharedCase{"cornellOriginal", "bench/cornell-mcguire/CornellBox-Original.glb", 30},
@@ -40,7 +41,8 @@ INSTANTIATE_TEST_SUITE_P(
                       SharedCase{"cornellWater", "bench/cornell-mcguire/CornellBox-Water.glb"},
                       SharedCase{"alphaBlend", "gltf/AlphaBlendModeTest/glTF-Binary/AlphaBlendModeTest.glb"},
                       SharedCase{"transmission", "gltf/TransmissionTest/glTF-Binary/TransmissionTest.glb"},
-                      SharedCase{"textureTransform", "gltf/TextureTransformTest/glTF/TextureTransformTest.gltf"},
+                      SharedCase{"textureTransform",
+                                 "gltf/TextureTransformTest/glTF/TextureTransformTest.gltf"},
                       SharedCase{"vertexColors", "gltf/VertexColorTest/glTF-Binary/VertexColorTest.glb"},
                       SharedCase{"multiUv", "gltf/MultiUVTest/glTF-Binary/MultiUVTest.glb", 50},
                       SharedCase{"normalTangent", "gltf/NormalTangentTest/glTF-Binary/NormalTangentTest.glb"},

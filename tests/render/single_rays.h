@@ -1,4 +1,5 @@
-// Scenes built by hand for the device: cameras that send one ray, or a row of parallel ones, and what comes back.
+// Scenes built by hand for the device: cameras that send one ray, or a row of parallel ones, and what comes
+// back.
 #pragma once
 
 #include "pictures.h"
@@ -33,7 +34,8 @@ inline glm::vec3 colorOf(const RenderResult& result, std::size_t pixel = 0) {
   return {p[3 * pixel], p[3 * pixel + 1], p[3 * pixel + 2]};
 }
 
-inline glm::vec3 shot(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction, int bounces) {
+inline glm::vec3 shot(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction,
+                      int bounces) {
   return colorOf(shoot(scene, origin, direction, bounces));
 }
 

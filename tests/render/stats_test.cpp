@@ -47,15 +47,19 @@ TEST(RenderStats, JsonHasEveryKey) {
   Settings settings = smallSettings(3);
   settings.raysPerPixel = 2;
   const auto json = statsToJson(render(ownScene("cornell_box"), settings).stats);
-  const auto expectKeys = [](const nlohmann::ordered_json& object, const std::vector<const char*>& keys, const char* where) {
+  const auto expectKeys = [](const nlohmann::ordered_json& object, const std::vector<const char*>& keys,
+                             const char* where) {
     for (const char* key : keys) EXPECT_TRUE(object.contains(key)) << where << " lacks " << key;
   };
-  expectKeys(json, {"scene", "settings", "device", "features", "rays", "time", "stages", "memory", "error", "biasBound", "nonFinite", "dropped"},
+  expectKeys(json,
+             {"scene", "settings", "device", "features", "rays", "time", "stages", "memory", "error",
+              "biasBound", "nonFinite", "dropped"},
              "statistics");
   expectKeys(json["scene"], {"file", "triangles", "materials", "lights", "textures"}, "scene");
   expectKeys(json["settings"],
-             {"width", "height", "camera", "exposure", "bounces", "raysPerPixel", "shadows", "search", "sampler", "seed", "impulses",
-              "device", "threads", "wavefront", "workGroup", "bump", "keepAllFeatures", "targetError", "timeLimit"},
+             {"width", "height", "camera", "exposure", "bounces", "raysPerPixel", "shadows", "search",
+              "sampler", "seed", "impulses", "device", "threads", "wavefront", "workGroup", "bump",
+              "keepAllFeatures", "targetError", "timeLimit"},
              "settings");
   expectKeys(json["device"], {"platform", "name", "version", "driver", "computeUnits", "threads"}, "device");
   expectKeys(json["features"], {"used", "leftOut"}, "features");
@@ -63,12 +67,13 @@ TEST(RenderStats, JsonHasEveryKey) {
   expectKeys(json["time"], {"load", "build", "compile", "upload", "render", "write", "total"}, "time");
   expectKeys(json["memory"], {"tree", "triangles", "queues", "textures", "film", "total"}, "memory");
   ASSERT_FALSE(json["stages"].empty());
-  for (const auto& stage : json["stages"]) expectKeys(stage, {"name", "launches", "seconds", "items"}, "stage");
+  for (const auto& stage : json["stages"])
+    expectKeys(stage, {"name", "launches", "seconds", "items"}, "stage");
   ASSERT_FALSE(json["error"].empty());
   expectKeys(json["error"][0], {"seconds", "raysPerPixel", "estimate", "rmse"}, "error");
-  EXPECT_EQ(json["rays"]["total"].get<std::uint64_t>(),
-            json["rays"]["primary"].get<std::uint64_t>() + json["rays"]["impulse"].get<std::uint64_t>() +
-                json["rays"]["shadow"].get<std::uint64_t>());
+  EXPECT_EQ(json["rays"]["total"].get<std::uint64_t>(), json["rays"]["primary"].get<std::uint64_t>() +
+                                                            json["rays"]["impulse"].get<std::uint64_t>() +
+                                                            json["rays"]["shadow"].get<std::uint64_t>());
   EXPECT_GT(json["time"]["render"].get<double>(), 0);
   EXPECT_GT(json["device"]["computeUnits"].get<int>(), 0);
   EXPECT_FALSE(json["device"]["name"].get<std::string>().empty());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pictures.h"
 #include "reference/camera.h"
 #include "reference/sampler.h"
 #include "reference/trace.h"
@@ -144,7 +145,7 @@ void judgeCounts(Surroundings& surroundings, Agreement& a) {
 
 Agreement compareWithReference(const Scene& scene, Settings settings) {
   settings.aovs = true;
-  Agreement a{render(scene, settings), renderReference(scene, settings)};
+  Agreement a{renderOnDevice(scene, settings), renderReference(scene, settings)};
   a.pixels = a.reference.depth.pixels.size();
   for (const float value : a.reference.radiance.pixels) a.mean += static_cast<double>(value);
   a.mean /= static_cast<double>(a.reference.radiance.pixels.size());

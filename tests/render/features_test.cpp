@@ -17,9 +17,9 @@ class OwnSceneFeatures : public ::testing::TestWithParam<std::string> {};
 TEST_P(OwnSceneFeatures, SpecialisedKernelsGiveTheBitsOfTheWholeOnes) {
   const Scene scene = ownScene(GetParam());
   Settings settings = smallSettings(6);
-  const RenderResult special = render(scene, settings);
+  const RenderResult special = renderOnDevice(scene, settings);
   settings.keepAllFeatures = true;
-  const RenderResult whole = render(scene, settings);
+  const RenderResult whole = renderOnDevice(scene, settings);
   EXPECT_EQ(differingPixels(special.radiance, whole.radiance), 0U);
   EXPECT_EQ(special.stats.rays.total(), whole.stats.rays.total());
   EXPECT_GT(whole.stats.featuresUsed.size(), special.stats.featuresUsed.size());
@@ -90,7 +90,7 @@ TEST(Features, EachOneThatASceneDoesNotNeedChangesNothing) {
   const Scene scene = plainScene();
   Settings settings;
   settings.width = settings.height = 8;
-  const RenderResult plain = render(scene, settings);
+  const RenderResult plain = renderOnDevice(scene, settings);
   EXPECT_GT(colorOf(plain, 36).x, 0);
   const SceneFeatures features = SceneFeatures::analyse(scene, settings, {true});
   std::size_t forced = 0;
@@ -99,7 +99,8 @@ TEST(Features, EachOneThatASceneDoesNotNeedChangesNothing) {
     const ForcedKernels kernels(static_cast<int>(line.feature));
     RenderHooks hooks;
     hooks.kernelFolder = kernels.folder();
-    EXPECT_EQ(differingPixels(plain.radiance, render(scene, settings, hooks).radiance), 0U) << line.text;
+    EXPECT_EQ(differingPixels(plain.radiance, renderOnDevice(scene, settings, hooks).radiance), 0U)
+        << line.text;
     ++forced;
   }
   EXPECT_GT(forced, 30U);
@@ -112,6 +113,21 @@ TEST(Features, EachAloneAndAllTogetherCompileWithoutAWarning) {
 #define WHITTLE_BUILD(name, bit, text) EXPECT_EQ(buildLog(compute, std::uint64_t{1} << (bit)), "") << (text);
   WHITTLE_FEATURES(WHITTLE_BUILD)
 #undef WHITTLE_BUILD
+}
+
+TEST(Features, BothListsOfBitsSayTheSame) {
+  const std::string& text = embeddedKernelFiles().at("shared/features.h");
+  std::size_t bits = 0;
+  for (std::size_t at = text.find("#define BIT_"); at != std::string::npos;
+       at = text.find("#define BIT_", at + 1))
+    ++bits;
+#define WHITTLE_COUNT(name, bit, words) +1
+  EXPECT_EQ(bits, std::size_t{0 WHITTLE_FEATURES(WHITTLE_COUNT)});
+#undef WHITTLE_COUNT
+#define WHITTLE_COMPARE(name, bit, words) \
+  EXPECT_NE(text.find("#define BIT_" #name " " #bit "\n"), std::string::npos) << (words);
+  WHITTLE_FEATURES(WHITTLE_COMPARE)
+#undef WHITTLE_COMPARE
 }
 
 std::vector<std::filesystem::path> sharedGltfScenes() {

@@ -22,7 +22,7 @@ double fresnel(double angle, double eta) {
 
 TEST(DeviceFurnace, NothingIsBrighterAndNearlyAllIsWhite) {
   constexpr int kBounces = 12;
-  const RenderResult result = render(ownScene("white_furnace"), smallSettings(kBounces));
+  const RenderResult result = renderOnDevice(ownScene("white_furnace"), smallSettings(kBounces));
   std::size_t white = 0;
   for (const float v : result.radiance.pixels) {
     ASSERT_LE(v, 1 + 2e-6 * kBounces);

@@ -29,11 +29,11 @@ TEST(BoundedMemory, NestedGlassSixteenDeep) {
   settings.width = 64;
   settings.height = 36;
   settings.wavefront = 1 << 20;
-  const RenderResult large = render(scene, settings);
+  const RenderResult large = renderOnDevice(scene, settings);
   EXPECT_EQ(large.stats.dropped, 0U);
   for (const int wavefront : {4096, 512}) {
     settings.wavefront = wavefront;
-    const RenderResult small = render(scene, settings);
+    const RenderResult small = renderOnDevice(scene, settings);
     const auto capacity = static_cast<std::uint64_t>(small.stats.settings.wavefront);
     EXPECT_EQ(capacity, static_cast<std::uint64_t>(wavefront));
     EXPECT_EQ(small.stats.dropped, 0U);
@@ -75,10 +75,10 @@ TEST(BoundedMemory, LongRunsAreSlicedAlike) {
   // segments.
   EXPECT_GT(stageOf(stats, "intersect").launches, 13U + 2 * 32);
   settings.raysPerPixel = 3;
-  const RenderResult three = render(sheets(), settings);
+  const RenderResult three = renderOnDevice(sheets(), settings);
   for (const int wavefront : {512, 1600, 1 << 22}) {
     settings.wavefront = wavefront;
-    const RenderResult other = render(sheets(), settings);
+    const RenderResult other = renderOnDevice(sheets(), settings);
     EXPECT_EQ(differingPixels(other.radiance, three.radiance), 0U) << wavefront;
     EXPECT_EQ(other.stats.dropped, 0U);
     EXPECT_LE(queueBytes(other.stats),

@@ -9,6 +9,7 @@
 
 #include "render/renderer.h"
 #include "scene/gltf_loader.h"
+#include "support/test_device.h"
 
 namespace whittle::test {
 
@@ -19,6 +20,13 @@ inline Settings smallSettings(int bounces = 8) {
   settings.height = 54;
   settings.bounces = bounces;
   return settings;
+}
+
+/// Renders on the device and with the kernels that the environment selects, see support/test_device.h.
+inline RenderResult renderOnDevice(const Scene& scene, Settings settings, RenderHooks hooks = {}) {
+  if (const char* selector = std::getenv("WHITTLE_TEST_DEVICE")) settings.device = selector;
+  if (!hooks.kernelFolder) hooks.kernelFolder = testKernelFolder();
+  return render(scene, settings, hooks);
 }
 
 inline Scene loadScene(const std::filesystem::path& file) {

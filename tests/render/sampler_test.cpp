@@ -55,9 +55,9 @@ TEST(OneImpulse, IsUnbiased) {
   settings.height = 18;
   settings.raysPerPixel = 256;
   const Scene scene = ownScene("refraction");
-  const RenderResult all = render(scene, settings);
+  const RenderResult all = renderOnDevice(scene, settings);
   settings.impulses = ImpulseMode::One;
-  const RenderResult one = render(scene, settings);
+  const RenderResult one = renderOnDevice(scene, settings);
   EXPECT_LT(one.stats.rays.impulse, all.stats.rays.impulse / 2) << "one branch instead of a tree";
   // The same positions in the pixels, so only the choice differs; the estimate, RMS over pixels, counts the
   // edges too.
@@ -70,12 +70,12 @@ TEST(Samples, SeedsAndSamplersDiffer) {
   Settings settings = smallSettings(1);
   settings.raysPerPixel = 4;
   const Scene scene = ownScene("anti_aliasing");
-  const FloatImage first = render(scene, settings).radiance;
+  const FloatImage first = renderOnDevice(scene, settings).radiance;
   settings.seed = 1;
-  EXPECT_GT(differingPixels(first, render(scene, settings).radiance), 100U);
+  EXPECT_GT(differingPixels(first, renderOnDevice(scene, settings).radiance), 100U);
   settings.seed = 0;
   settings.sampler = Sampler::Sobol;
-  EXPECT_GT(differingPixels(first, render(scene, settings).radiance), 100U);
+  EXPECT_GT(differingPixels(first, renderOnDevice(scene, settings).radiance), 100U);
 }
 
 }  // namespace

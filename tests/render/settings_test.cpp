@@ -11,7 +11,7 @@ bool allFinite(const FloatImage& image) {
 }
 
 TEST(Settings, OneBounceSendsOutNoImpulses) {
-  const RenderResult result = render(ownScene("cornell_box"), smallSettings(1));
+  const RenderResult result = renderOnDevice(ownScene("cornell_box"), smallSettings(1));
   EXPECT_EQ(result.stats.rays.impulse, 0U);
   EXPECT_EQ(result.stats.rays.primary, 96U * 54);
   EXPECT_EQ(stageOf(result.stats, "intersect").launches, 1U);
@@ -22,9 +22,9 @@ TEST(Settings, OneBounceSendsOutNoImpulses) {
 TEST(Settings, NoShadowsNoShadowRays) {
   Settings settings = smallSettings(4);
   const Scene scene = ownScene("cornell_box");
-  const RenderResult with = render(scene, settings);
+  const RenderResult with = renderOnDevice(scene, settings);
   settings.shadows = false;
-  const RenderResult without = render(scene, settings);
+  const RenderResult without = renderOnDevice(scene, settings);
   EXPECT_GT(with.stats.rays.shadow, 1000U);
   EXPECT_EQ(without.stats.rays.shadow, 0U);
   EXPECT_EQ(stageOf(without.stats, "occlude").launches, 0U);
@@ -60,7 +60,7 @@ TEST(Settings, AovsOfAFloorAndNothing) {
   Settings settings;
   settings.width = settings.height = 2;
   settings.aovs = true;
-  const RenderResult result = render(scene, settings);
+  const RenderResult result = renderOnDevice(scene, settings);
   const auto& aovs = result.aovs;
   ASSERT_EQ(aovs.at("depth").pixels.size(), 4U);
   for (const std::size_t right : {1U, 3U}) {
@@ -80,7 +80,7 @@ TEST(Settings, AovsOfAFloorAndNothing) {
     EXPECT_EQ(aovs.at("albedo").pixels[3 * left], 0);
   }
   settings.aovs = false;
-  EXPECT_TRUE(render(scene, settings).aovs.empty());
+  EXPECT_TRUE(renderOnDevice(scene, settings).aovs.empty());
 }
 
 TEST(Settings, ATimeLimitStopsEarlyWithAWholePicture) {
@@ -88,24 +88,24 @@ TEST(Settings, ATimeLimitStopsEarlyWithAWholePicture) {
   const Scene scene = ownScene("anti_aliasing");
   settings.raysPerPixel = 1 << 20;
   settings.timeLimit = 0.05;
-  const RenderResult limited = render(scene, settings);
+  const RenderResult limited = renderOnDevice(scene, settings);
   EXPECT_LT(limited.stats.settings.raysPerPixel, 1 << 20);
   settings.raysPerPixel = limited.stats.settings.raysPerPixel;
   settings.timeLimit = 0;
   // Random samples do not know how many there will be.
-  EXPECT_EQ(differingPixels(limited.radiance, render(scene, settings).radiance), 0U);
+  EXPECT_EQ(differingPixels(limited.radiance, renderOnDevice(scene, settings).radiance), 0U);
 }
 
 TEST(Settings, ATargetErrorStopsOnceItIsReached) {
   Settings settings = smallSettings(2);
   settings.raysPerPixel = 256;
-  const RenderResult first = render(ownScene("anti_aliasing"), [&] {
+  const RenderResult first = renderOnDevice(ownScene("anti_aliasing"), [&] {
     Settings four = settings;
     four.raysPerPixel = 4;
     return four;
   }());
   settings.targetError = first.stats.error.back().estimate / 2;  // about 16 samples at one over the root
-  const RenderResult enough = render(ownScene("anti_aliasing"), settings);
+  const RenderResult enough = renderOnDevice(ownScene("anti_aliasing"), settings);
   EXPECT_LE(enough.stats.error.back().estimate, settings.targetError);
   EXPECT_GE(enough.stats.settings.raysPerPixel, 8);
   EXPECT_LE(enough.stats.settings.raysPerPixel, 64);
@@ -121,7 +121,7 @@ TEST(Strange, NoTriangles) {
     settings.height = 3;
     settings.search = search;
     settings.aovs = true;
-    const RenderResult result = render(scene, settings);
+    const RenderResult result = renderOnDevice(scene, settings);
     for (std::size_t i = 0; i < 15; ++i) EXPECT_EQ(colorOf(result, i), glm::vec3(0.25F, 0.5F, 1));
     EXPECT_EQ(result.aovs.at("depth").pixels[7], INFINITY);
   }
@@ -137,7 +137,7 @@ TEST(Strange, OnePixelAndFieldsOfViewFromNothingToAll) {
     for (const int size : {1, 16}) {
       Settings settings = smallSettings(4);
       settings.width = settings.height = size;
-      const RenderResult result = render(scene, settings);
+      const RenderResult result = renderOnDevice(scene, settings);
       EXPECT_TRUE(allFinite(result.radiance)) << fov;
       EXPECT_EQ(result.stats.nonFinite, 0U) << fov;
       EXPECT_EQ(result.stats.rays.primary, static_cast<std::uint64_t>(size) * size);

@@ -26,7 +26,7 @@ inline RenderResult shoot(Scene scene, const glm::dvec3& origin, const glm::dvec
   Settings settings;
   settings.width = settings.height = 1;
   settings.bounces = bounces;
-  return render(scene, settings);
+  return renderOnDevice(scene, settings);
 }
 
 inline glm::vec3 colorOf(const RenderResult& result, std::size_t pixel = 0) {
@@ -55,7 +55,7 @@ inline RenderResult shootRowDown(Scene scene, double height, double reach, int c
   settings.width = count;
   settings.height = 1;
   settings.bounces = bounces;
-  return render(scene, settings);
+  return renderOnDevice(scene, settings);
 }
 
 }  // namespace whittle::test

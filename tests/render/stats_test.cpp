@@ -9,7 +9,7 @@ TEST(RenderStats, CountsOfStagesAddUp) {
     Settings settings = smallSettings(6);
     settings.wavefront = 1500;
     settings.raysPerPixel = 2;
-    const Stats stats = render(ownScene(name), settings).stats;
+    const Stats stats = renderOnDevice(ownScene(name), settings).stats;
     EXPECT_EQ(stats.rays.primary, 2U * 96 * 54) << name;
     EXPECT_EQ(stageOf(stats, "raygen").items, stats.rays.primary) << name;
     EXPECT_EQ(stageOf(stats, "intersect").items, stats.rays.primary + stats.rays.impulse) << name;
@@ -25,7 +25,7 @@ TEST(RenderStats, CountsOfStagesAddUp) {
 }
 
 TEST(RenderStats, BuffersAreListedByGroup) {
-  const Stats stats = render(ownScene("textured"), smallSettings(4)).stats;
+  const Stats stats = renderOnDevice(ownScene("textured"), smallSettings(4)).stats;
   std::map<std::string, std::uint64_t> groups;
   for (const auto& b : stats.buffers) {
     EXPECT_GT(b.bytes, 0U) << b.name;
@@ -46,7 +46,7 @@ TEST(RenderStats, BuffersAreListedByGroup) {
 TEST(RenderStats, JsonHasEveryKey) {
   Settings settings = smallSettings(3);
   settings.raysPerPixel = 2;
-  const auto json = statsToJson(render(ownScene("cornell_box"), settings).stats);
+  const auto json = statsToJson(renderOnDevice(ownScene("cornell_box"), settings).stats);
   const auto expectKeys = [](const nlohmann::ordered_json& object, const std::vector<const char*>& keys,
                              const char* where) {
     for (const char* key : keys) EXPECT_TRUE(object.contains(key)) << where << " lacks " << key;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <stdexcept>
 
 #include "kernels/shared/layout.h"
 
@@ -70,7 +71,7 @@ std::vector<Segment> RayQueues::cut(const Buffer& queue, std::uint32_t count, bo
     const auto slots = readSlots(queue, end - window, window + 1);
     std::uint32_t at = window;
     while (at > 0 && slots[at] == slots[at - 1]) --at;
-    assert(at > 0 && "a run longer than LONG_RUN that nobody reported");
+    if (at == 0) throw std::logic_error("a ray queue holds a longer run of one sample than was reported");
     segments.push_back({begin, end - window + at});
     begin = segments.back().end;
   }

@@ -39,7 +39,11 @@ TEST(DeviceLights, AConeOfAHundredthOfADegreeLightsItsInsideOnly) {
   spot.direction = {0, -1, 0};
   spot.innerConeAngle = spot.outerConeAngle = static_cast<float>(half);
   const Scene scene = plane(lambert(glm::vec3(1)), spot);
-  const auto lit = [&](double angle) { return shot(scene, {100 * std::tan(angle), 1, 0}, {0, -1, 0}, 1).x; };
+  const auto lit = [&](double angle) {
+    const RenderResult result = shoot(scene, {100 * std::tan(angle), 1, 0}, {0, -1, 0}, 1);
+    EXPECT_EQ(result.stats.nonFinite, 0U) << "and not dark for want of a number";
+    return colorOf(result).x;
+  };
   EXPECT_NEAR(lit(0), 1e-4 / kPi, 1e-9);
   EXPECT_NEAR(lit(half - 1e-5), 1e-4 / kPi, 1e-9);
   EXPECT_EQ(lit(half + 1e-5), 0);

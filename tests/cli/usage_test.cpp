@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <ostream>
 
 #include "run_whittle.h"
 
@@ -14,6 +15,8 @@ struct Mistake {
   std::vector<std::string> args;
   std::vector<std::string> mentions;  ///< the culprit and the way out
 };
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
 
 class Usage : public testing::TestWithParam<Mistake> {};
 

@@ -37,7 +37,19 @@ std::string onTerminal(std::vector<std::string> args, std::size_t columns,
   return text;
 }
 
-TEST(Terminal, ProgressFitsTheWindowAndIsWipedAtTheEnd) {
+/// Needs pseudo-terminals, which a bare chroot without /dev/pts does not have.
+class Terminal : public testing::Test {
+ protected:
+  void SetUp() override {
+    int master = -1, slave = -1;
+    if (::openpty(&master, &slave, nullptr, nullptr, nullptr) != 0)
+      GTEST_SKIP() << "no pseudo-terminal can be opened here";
+    ::close(master);
+    ::close(slave);
+  }
+};
+
+TEST_F(Terminal, ProgressFitsTheWindowAndIsWipedAtTheEnd) {
   for (const std::size_t columns : {80U, 40U, 12U}) {
     const Folder folder;
     int status = -1;
@@ -59,7 +71,7 @@ TEST(Terminal, ProgressFitsTheWindowAndIsWipedAtTheEnd) {
   }
 }
 
-TEST(Terminal, QuietStaysQuiet) {
+TEST_F(Terminal, QuietStaysQuiet) {
   const Folder folder;
   int status = -1;
   EXPECT_EQ(onTerminal(smallRender({"-o", "a.png", "--quiet"}), 80, folder.path(), status), "");

@@ -21,7 +21,7 @@ bool parseWholly(const std::string& text, T& value) {
 CLI::Option* addText(CLI::App& command, const std::string& name, const StringSetter& set,
                      const OptionHelp& help) {
   return command.add_option_function<std::string>(name, set, help.text)
-      ->type_name(help.placeholder)
+      ->type_name(help.valueName)
       ->default_str(help.fallback)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
@@ -43,8 +43,8 @@ double parseReal(const std::string& option, const std::string& text, double low,
 }
 
 CLI::Option* addFile(CLI::App& command, const std::string& name, std::filesystem::path& value,
-                     const std::string& placeholder, const std::string& text) {
-  return addText(command, name, [&value](const std::string& word) { value = word; }, {placeholder, text, {}});
+                     const std::string& valueName, const std::string& text) {
+  return addText(command, name, [&value](const std::string& word) { value = word; }, {valueName, text, {}});
 }
 
 }  // namespace whittle::cli

@@ -18,7 +18,7 @@ using StringSetter = std::function<void(const std::string&)>;
 
 /// What an option shows in the help: `--name PLACEHOLDER   text [fallback]`.
 struct OptionHelp {
-  std::string placeholder;
+  std::string valueName;
   std::string text;
   std::string fallback;  ///< the default as a person reads it; empty: none shown
 };
@@ -33,19 +33,19 @@ double parseReal(const std::string& option, const std::string& text, double low,
 
 template <typename T>
 CLI::Option* addWhole(CLI::App& command, const std::string& name, T& value, std::int64_t low,
-                      std::int64_t high, const std::string& placeholder, const std::string& text,
+                      std::int64_t high, const std::string& valueName, const std::string& text,
                       const std::string& fallback = {}) {
   return addText(command, name,
                  [&value, name, low, high](const std::string& word) {
                    value = static_cast<T>(parseWhole(name, word, low, high));
                  },
-                 {placeholder, text, fallback.empty() ? std::to_string(value) : fallback});
+                 {valueName, text, fallback.empty() ? std::to_string(value) : fallback});
 }
 
 /// T: float, double or an optional of them.
 template <typename T>
 CLI::Option* addReal(CLI::App& command, const std::string& name, T& value, double low, double high,
-                     const std::string& placeholder, const std::string& text, const std::string& fallback) {
+                     const std::string& valueName, const std::string& text, const std::string& fallback) {
   return addText(command, name,
                  [&value, name, low, high](const std::string& word) {
                    if constexpr (std::is_same_v<T, double>)
@@ -53,7 +53,7 @@ CLI::Option* addReal(CLI::App& command, const std::string& name, T& value, doubl
                    else
                      value = static_cast<float>(parseReal(name, word, low, high));
                  },
-                 {placeholder, text, fallback});
+                 {valueName, text, fallback});
 }
 
 template <typename T>
@@ -83,12 +83,12 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, T& value,
 }
 
 CLI::Option* addFile(CLI::App& command, const std::string& name, std::filesystem::path& value,
-                     const std::string& placeholder, const std::string& text);
+                     const std::string& valueName, const std::string& text);
 /// May be given several times, one value each time.
 template <typename T>
 CLI::Option* addSeveral(CLI::App& command, const std::string& name, std::vector<T>& values,
-                        const std::string& placeholder, const std::string& text) {
-  return command.add_option(name, values, text)->type_name(placeholder)->allow_extra_args(false);
+                        const std::string& valueName, const std::string& text) {
+  return command.add_option(name, values, text)->type_name(valueName)->allow_extra_args(false);
 }
 
 }  // namespace whittle::cli

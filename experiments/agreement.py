@@ -2,9 +2,10 @@
 """How far the kernels are from the double-precision reference, scene by scene.
 
 Renders each scene with `whittle render` and `whittle reference` and prints one line of tab-separated values for each:
-RMSE over the mean radiance for the pixels whose first hit is the same, the same without outliers (pixels off by more
-than 1e-3 of the mean), their number, the pixels whose first hit differs, and both counts of rays.
-"The same" first hit: the same triangle, or a depth within 1e-4.
+RMSE over the mean radiance for the pixels that see the same triangle, the same without outliers (pixels off by more
+than 1e-3 of the mean), their number, the pixels that see another triangle, those of them that see it at another depth
+(beyond 1e-4; not so on the edge that two triangles share, or where two surfaces lie in one plane), and both counts of
+rays.
 
 usage: experiments/agreement.py [--whittle FILE] [--width N] [--height N] [SCENE.glb ...]   (default: scenes/*.glb)
 needs: Debian's python3-numpy and python3-openimageio; /usr/bin/python3
@@ -37,12 +38,13 @@ def render(whittle, command, scene, size, folder):
 
 def compare(kernel, reference):
     (a, a_primitive, a_depth, a_rays), (b, b_primitive, b_depth, b_rays) = kernel, reference
+    same = a_primitive == b_primitive
     with numpy.errstate(all="ignore"):
-        same = (a_primitive == b_primitive) | (abs(a_depth - b_depth) <= 1e-4 * abs(b_depth))
+        elsewhere = ~same & ~(abs(a_depth - b_depth) <= 1e-4 * abs(b_depth))
     mean = b.mean()
     outlier = (abs(a - b).max(axis=-1) > 1e-3 * mean) & same
     rmse = lambda chosen: numpy.sqrt(((a - b)[chosen] ** 2).mean()) / mean
-    return (f"{rmse(same):.2e}\t{rmse(same & ~outlier):.2e}\t{outlier.sum()}\t{(~same).sum()}\t{same.size}\t"
+    return (f"{rmse(same):.2e}\t{rmse(same & ~outlier):.2e}\t{outlier.sum()}\t{(~same).sum()}\t{elsewhere.sum()}\t{same.size}\t"
             f"{a_rays['total']}\t{b_rays['total']}")
 
 
@@ -54,7 +56,7 @@ def main():
     parser.add_argument("scenes", nargs="*", type=pathlib.Path)
     options = parser.parse_args()
     size = ["--width", str(options.width), "--height", str(options.height)]
-    print("scene\trmse/mean\twithout outliers\toutliers\tfirst hit differs\tpixels\trays\trays of the reference")
+    print("scene\trmse/mean\twithout outliers\toutliers\tother triangle\tother depth\tpixels\trays\trays of the reference")
     for scene in options.scenes or sorted((ROOT / "scenes").glob("*.glb")):
         with tempfile.TemporaryDirectory() as folder:
             both = [render(options.whittle, c, scene, size, pathlib.Path(folder)) for c in ("render", "reference")]

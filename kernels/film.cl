@@ -5,7 +5,7 @@
 
 /// sum + value; *compensation is what the result lacks. Errors of a long sum all lean the same way: the compensation is
 /// handed back to the sum at once, or it would itself grow until it rounds (6e-5 off after 10^6 samples).
-float compensatedAdd(float sum, float value, float* compensation) {
+INLINE float compensatedAdd(float sum, float value, float* compensation) {
   const float result = sum + value;
   const float error = fabs(sum) >= fabs(value) ? (sum - result) + value : (value - result) + sum;
   const float lacking = *compensation + error;

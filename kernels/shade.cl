@@ -6,7 +6,7 @@
 #include "lib/sampler.cl"
 
 /// What is left of the radiance from a hit at distance t after the volume in front of it; 1 where it crossed none.
-float3 absorptionAlong(const Surfel* s, float t) {
+INLINE float3 absorptionAlong(const Surfel* s, float t) {
 #if HAS(ABSORPTION)
   if (!s->front && (s->flags & MATERIAL_VOLUME))
     return (float3)(s->sigma_a.x > 0.0f ? exp(-s->sigma_a.x * t) : 1.0f, s->sigma_a.y > 0.0f ? exp(-s->sigma_a.y * t) : 1.0f,
@@ -18,7 +18,7 @@ float3 absorptionAlong(const Surfel* s, float t) {
 #if HAS(LIGHTS)
 /// Direct light from one light: a shadow candidate, or added to `radiance` at once where nothing can be in the way.
 /// Returns ENTRY_SHADOW for a candidate, else 0.
-uint directLight(const SceneView* scene, const RenderConstants* constants, const Surfel* s, float3 w_o, uint lightIndex,
+INLINE uint directLight(const SceneView* scene, const RenderConstants* constants, const Surfel* s, float3 w_o, uint lightIndex,
                  float3 attenuation, uint i, uint capacity, __global float* shadows, float3* radiance) {
 #if HAS(UNLIT)
   if (s->flags & MATERIAL_UNLIT) return 0;
@@ -47,7 +47,7 @@ uint directLight(const SceneView* scene, const RenderConstants* constants, const
 
 #if HAS(IMPULSES)
 /// Stores impulse k of entry i if it carries anything; returns its flag.
-uint storeImpulse(const Surfel* s, const Impulse* impulse, float3 throughput, uint k, uint i, uint capacity,
+INLINE uint storeImpulse(const Surfel* s, const Impulse* impulse, float3 throughput, uint k, uint i, uint capacity,
                   __global float* impulses) {
   const float3 carried = throughput * impulse->magnitude;
   if (!anyPositive(carried) || !isFinite3(impulse->w_i)) return 0;
@@ -60,7 +60,7 @@ uint storeImpulse(const Surfel* s, const Impulse* impulse, float3 throughput, ui
 }
 
 /// Keeps one of two impulses with probability proportional to its luminance, divided by that probability.
-void chooseOne(Impulse* first, Impulse* second, float u) {
+INLINE void chooseOne(Impulse* first, Impulse* second, float u) {
   const float a = luminance(first->magnitude), b = luminance(second->magnitude);
   const float sum = a + b;
   if (!(sum > 0.0f)) return;
@@ -76,7 +76,7 @@ void chooseOne(Impulse* first, Impulse* second, float u) {
 #endif
 
 #if HAS(AOVS)
-void storeAov(__global float* aovs, uint pixels, uint pixel, float t, float primitive, float3 n, float3 albedo) {
+INLINE void storeAov(__global float* aovs, uint pixels, uint pixel, float t, float primitive, float3 n, float3 albedo) {
   aovs[(size_t)AOV_DEPTH * pixels + pixel] = t;
   aovs[(size_t)AOV_PRIMITIVE * pixels + pixel] = primitive;
   storePlanes3(aovs, pixels, AOV_NORMAL, pixel, n);
@@ -115,8 +115,8 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #endif
   } else {
     const float t = hits[(size_t)HIT_T * capacity + i];
-    const Surfel s = surfelAt(&scene, &own, triangleIndex, hits[(size_t)HIT_B1 * capacity + i],
-                              hits[(size_t)HIT_B2 * capacity + i], d);
+    const Surfel s = surfelAt(&scene, &own, triangleIndex, loadPlanes3(rays, capacity, RAY_O, first + i), d, t,
+                              hits[(size_t)HIT_B1 * capacity + i], hits[(size_t)HIT_B2 * capacity + i]);
     const float3 attenuation = absorptionAlong(&s, t);
     radiance = s.alpha * s.emission * attenuation;
 #if HAS(UNLIT)
@@ -158,9 +158,10 @@ __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const u
   uint found = 0;
   if (triangleIndex != NO_HIT) {
     const float3 d = loadPlanes3(rays, capacity, RAY_D, first + i);
-    const Surfel s = surfelAt(&scene, &own, triangleIndex, hits[(size_t)HIT_B1 * capacity + i],
-                              hits[(size_t)HIT_B2 * capacity + i], d);
-    const float3 attenuation = absorptionAlong(&s, hits[(size_t)HIT_T * capacity + i]);
+    const float t = hits[(size_t)HIT_T * capacity + i];
+    const Surfel s = surfelAt(&scene, &own, triangleIndex, loadPlanes3(rays, capacity, RAY_O, first + i), d, t,
+                              hits[(size_t)HIT_B1 * capacity + i], hits[(size_t)HIT_B2 * capacity + i]);
+    const float3 attenuation = absorptionAlong(&s, t);
     float3 radiance = loadPlanes3(entryRadiance, capacity, 0, i);
     found = directLight(&scene, &own, &s, -d, light, attenuation, i, capacity, shadows, &radiance);
     storePlanes3(entryRadiance, capacity, 0, i, radiance);

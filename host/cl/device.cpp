@@ -53,6 +53,15 @@ DeviceInfo describe(const cl::Device& device, const std::string& platform) {
   return info;
 }
 
+/// PoCL has a device on every CPU, unless it finds no folder for its compiled kernels.
+std::string noDevice(const std::string& platform) {
+  const bool pocl = platform.find("Portable Computing Language") != std::string::npos;
+  return platform + ": no device" +
+         (pocl ? "; PoCL needs a folder that it can write to: set HOME, XDG_CACHE_HOME or POCL_CACHE_DIR to "
+                 "one"
+               : "");
+}
+
 void listPlatform(const cl::Platform& platform, DeviceList& list) {
   std::string name = "a platform";
   try {
@@ -66,10 +75,10 @@ void listPlatform(const cl::Platform& platform, DeviceList& list) {
         list.problems.push_back(name + ": a device does not answer (" + clErrorName(e.err()) + ")");
       }
     }
-    if (devices.empty()) list.problems.push_back(name + ": no device");
+    if (devices.empty()) list.problems.push_back(noDevice(name));
   } catch (const cl::Error& e) {
-    list.problems.push_back(name +
-                            (e.err() == CL_DEVICE_NOT_FOUND ? ": no device" : ": " + clErrorName(e.err())));
+    list.problems.push_back(e.err() == CL_DEVICE_NOT_FOUND ? noDevice(name)
+                                                           : name + ": " + clErrorName(e.err()));
   }
 }
 

@@ -13,7 +13,7 @@ std::string formatBytes(std::uint64_t bytes) {
   return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.3g} {}", value, kUnits[unit]);
 }
 
-Compute::Compute(DeviceInfo device) : device_(std::move(device)) {
+Compute::Compute(DeviceInfo device, Memory memory) : device_(std::move(device)), memory_(memory) {
   clTry("opening " + device_.name, [&] {
     context_ = cl::Context(device_.device);
     queue_ = cl::CommandQueue(context_, device_.device, CL_QUEUE_PROFILING_ENABLE);
@@ -25,6 +25,7 @@ Buffer Compute::allocate(const std::string& name, std::size_t bytes) {
   if (bytes > device_.largestBuffer)
     throw ClError(fmt::format("buffer '{}' needs {} but {} allows {} in one allocation", name,
                               formatBytes(bytes), device_.name, formatBytes(device_.largestBuffer)));
+  if (memory_ == Memory::SizesOnly) return {name, bytes, {}};
   return clTry(fmt::format("allocating buffer '{}' of {}", name, formatBytes(bytes)), [&] {
     return Buffer{name, bytes, cl::Buffer(context_, CL_MEM_READ_WRITE, bytes)};
   });
@@ -32,10 +33,14 @@ Buffer Compute::allocate(const std::string& name, std::size_t bytes) {
 
 Buffer Compute::upload(const std::string& name, const void* data, std::size_t bytes) {
   Buffer buffer = allocate(name, bytes);
-  if (buffer)
-    clTry(fmt::format("uploading '{}'", name),
-          [&] { queue_.enqueueWriteBuffer(buffer.handle, CL_TRUE, 0, bytes, data); });
+  write(buffer, data);
   return buffer;
+}
+
+void Compute::write(const Buffer& buffer, const void* data) {
+  if (!buffer.handle()) return;
+  clTry(fmt::format("uploading '{}'", buffer.name),
+        [&] { queue_.enqueueWriteBuffer(buffer.handle, CL_TRUE, 0, buffer.bytes, data); });
 }
 
 void Compute::read(const Buffer& buffer, std::size_t offset, std::size_t bytes, void* out) {
@@ -45,7 +50,7 @@ void Compute::read(const Buffer& buffer, std::size_t offset, std::size_t bytes, 
 }
 
 void Compute::fillZero(const Buffer& buffer) {
-  if (!buffer) return;
+  if (!buffer.handle()) return;
   clTry(fmt::format("clearing '{}'", buffer.name), [&] {
     queue_.enqueueFillBuffer(buffer.handle, cl_uint{0}, 0, buffer.bytes / sizeof(cl_uint) * sizeof(cl_uint));
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,7 +25,10 @@ struct Buffer {
 /// Owns the context and an in-order, profiling command queue of one device.
 class Compute {
  public:
-  explicit Compute(DeviceInfo device);
+  /// Real: buffers are allocated. SizesOnly: they only know their names and sizes, and limits are checked.
+  enum class Memory : std::uint8_t { Real, SizesOnly };
+
+  explicit Compute(DeviceInfo device, Memory memory = Memory::Real);
 
   const DeviceInfo& device() const { return device_; }
   cl::CommandQueue& queue() { return queue_; }
@@ -37,6 +41,8 @@ class Compute {
   Buffer upload(const std::string& name, const std::vector<T>& data) {
     return upload(name, data.data(), data.size() * sizeof(T));
   }
+  /// Blocking copy of a whole buffer from the host.
+  void write(const Buffer& buffer, const void* data);
   /// Blocking copy to the host.
   void read(const Buffer& buffer, std::size_t offset, std::size_t bytes, void* out);
   void fillZero(const Buffer& buffer);
@@ -48,6 +54,7 @@ class Compute {
 
  private:
   DeviceInfo device_;
+  Memory memory_;
   cl::Context context_;
   cl::CommandQueue queue_;
   std::string buildLog_;

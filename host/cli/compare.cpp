@@ -18,6 +18,12 @@ struct CompareOptions {
   bool json = false;
 };
 
+/// Radiance as floats, not a tone-mapped picture for the eye.
+bool isLinear(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  return extension == ".exr" || extension == ".hdr" || extension == ".EXR" || extension == ".HDR";
+}
+
 int colorChannels(const FloatImage& image) { return image.channels >= 3 ? 3 : 1; }
 
 std::string shapeOf(const std::filesystem::path& file, const FloatImage& image) {
@@ -49,6 +55,10 @@ int runCompare(const CompareOptions& o) {
     fmt::print(stderr, "whittle: {} but {}: they cannot be compared\n", shapeOf(o.a, a), shapeOf(o.b, b));
     return 1;
   }
+  if (isLinear(o.a) != isLinear(o.b))
+    fmt::print(stderr,
+               "note: one picture is linear, the other tone-mapped and cut off at white: their difference "
+               "holds that too\n");
   const ImageMetrics m = compareImages(a, b);
   const auto pixels = static_cast<std::uint64_t>(a.width) * static_cast<std::uint64_t>(a.height);
   if (m.nonFinite + m.nonFiniteReference > 0)

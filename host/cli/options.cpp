@@ -76,7 +76,7 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
            "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr",
            "as the file says"});
   c.add_flag("--default-lights", o.defaultLights,
-             "add a sun and a fill light to a file that has no lights but glows");
+             "add a sun, a fill light and a dim background to a file that has no lights but glows");
 }
 
 void addPictureOptions(CLI::App& c, Settings& s) {
@@ -128,6 +128,7 @@ Scene loadScene(const SceneOptions& options, Notices& notices) {
   LoadOptions load;
   if (!options.scene.empty()) load.sceneName = options.scene;
   load.defaultLights = options.defaultLights;
+  load.defaultBackground = options.background.empty();
   Scene scene = loadGltf(options.file, load, notices);
   applyBackground(scene, options.background);
   for (const auto& text : notices.warnings) fmt::print(stderr, "warning: {}\n", text);

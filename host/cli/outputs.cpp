@@ -22,12 +22,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isExr(const fs::path& file) {
+bool hasExtension(const fs::path& file, std::initializer_list<const char*> names) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".exr";
+  return std::find(names.begin(), names.end(), extension) != names.end();
 }
+
+bool isExr(const fs::path& file) { return hasExtension(file, {".exr"}); }
+
+/// What libjpeg can write (JPEG_MAX_DIMENSION); beyond it, it ends the process.
+constexpr int kLargestJpeg = 65500;
 
 /// /dev/null, /dev/stdout, a named pipe: no file to replace.
 bool isStream(const fs::path& file) {
@@ -81,11 +86,14 @@ void OutputCheck::picture(const std::string& option, const fs::path& file) {
     throw InputError(fmt::format("{}: {}", option, e.what()));
   }
   if (isStream(file)) throw InputError(fmt::format("{}: {} is not a regular file", option, file.string()));
+  if (hasExtension(file, {".jpg", ".jpeg"}) && std::max(width_, height_) > kLargestJpeg)
+    throw InputError(fmt::format("{}: {}: a JPEG has at most {} pixels to a side; .png and .exr have more",
+                                 option, file.string(), kLargestJpeg));
   claim(option, file);
 }
 
 void OutputCheck::text(const std::string& option, const fs::path& file) {
-  if (file.empty()) return;
+  if (file.empty() || isStandardOutput(file)) return;
   try {
     checkFolderWritable(file);
   } catch (const InputError& e) {
@@ -102,8 +110,12 @@ void writePicture(const fs::path& file, const FloatImage& radiance, float exposu
     writeRgb8(file, radiance.width, radiance.height, toneMap(radiance, exposure), metadata);
 }
 
+bool isStandardOutput(const fs::path& file) { return file == "-"; }
+
 void writeTextFile(const fs::path& file, const std::string& text) {
-  if (isStream(file))
+  if (isStandardOutput(file))
+    writeStream("/dev/stdout", text);
+  else if (isStream(file))
     writeStream(file, text);
   else
     writeWholeFile(file, std::as_bytes(std::span(text)));

@@ -21,8 +21,9 @@ AovOutput parseAov(const std::string& text, const std::vector<std::string>& name
 /// Everything that one command will write, so that the checks happen in one place.
 class OutputCheck {
  public:
-  /// `input`: the scene, which no output may replace.
-  explicit OutputCheck(std::filesystem::path input) : used_{std::move(input)} {}
+  /// `input`: the scene, which no output may replace. Width and height: of the pictures.
+  OutputCheck(std::filesystem::path input, int width, int height)
+      : width_(width), height_(height), used_{std::move(input)} {}
 
   /// Throws InputError unless `file` can be written as a picture, and is not named twice.
   void picture(const std::string& option, const std::filesystem::path& file);
@@ -32,12 +33,16 @@ class OutputCheck {
  private:
   void claim(const std::string& option, const std::filesystem::path& file);
 
+  int width_, height_;
   std::vector<std::filesystem::path> used_;
 };
 
 /// .exr: linear floats; .png/.jpg: tone-mapped at `exposure` stops. `metadata` goes into the file.
 void writePicture(const std::filesystem::path& file, const FloatImage& radiance, float exposure,
                   const ImageMetadata& metadata);
+
+/// "-": text goes to standard output, and nothing else does.
+bool isStandardOutput(const std::filesystem::path& file);
 
 /// Writes text to a file that appears whole or not at all; devices and pipes are written to as they are.
 /// Throws std::runtime_error.

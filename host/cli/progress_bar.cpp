@@ -48,7 +48,8 @@ void ProgressBar::update(double fraction, double seconds, const std::string& rat
   fraction = std::clamp(fraction, 0.0, 1.0);
   std::string text = fmt::format("{:3.0f} %", 100.0 * fraction);
   if (!rate.empty()) text += "  " + rate;
-  if (fraction > 0.0) text += "  " + formatSeconds(std::max(1.0, seconds / fraction - seconds)) + " left";
+  if (fraction > 0.0 && fraction < 1.0)
+    text += "  " + formatSeconds(std::max(1.0, seconds / fraction - seconds)) + " left";
   // The last two columns stay free for the "^C" that a terminal echoes.
   const std::size_t columns = std::max<std::size_t>(terminalColumns(), 2) - 2;
   const std::size_t used = columnsOf(text) + 2;

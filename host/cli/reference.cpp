@@ -28,7 +28,7 @@ struct ReferenceOptions {
 };
 
 void checkOutputs(ReferenceOptions& o) {
-  OutputCheck check(o.scene.file);
+  OutputCheck check(o.scene.file, o.settings.width, o.settings.height);
   for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, {"depth", "primitive"}));
   for (const auto& file : o.outputs) check.picture("--output", file);
   for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
@@ -86,7 +86,7 @@ void runReference(ReferenceOptions& o) {
     fmt::print(stderr, "warning: {} samples were not finite and count as black\n",
                formatInteger(result.nonFinite));
   writeResults(o, scene, result, elapsed);
-  if (o.scene.quiet) return;
+  if (o.scene.quiet || isStandardOutput(o.stats)) return;
   const auto& rays = result.rays;
   fmt::print("{}×{} in double precision: {} rays in {}\n{} primary, {} impulse, {} shadow\n",
              o.settings.width, o.settings.height, formatInteger(rays.total()), formatSeconds(elapsed),
@@ -108,7 +108,8 @@ void addReference(CLI::App& app, int& status) {
       ->required();
   addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE",
              "depth|primitive of each pixel's first sample, as .exr; may be given several times");
-  addFile(*c, "--stats", o->stats, "FILE", "settings, ray counts and time as JSON");
+  addFile(*c, "--stats", o->stats, "FILE",
+          "settings, ray counts and time as JSON; -: on standard output, instead of the summary");
   c->add_flag("--quiet", o->scene.quiet, "no progress, notes or summary");
   addPictureOptions(*c, o->settings);
   c->footer("Example: whittle reference scene.glb -o right.exr --width 320 --height 180");

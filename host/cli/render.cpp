@@ -33,11 +33,23 @@ struct RenderOptions {
   std::vector<AovOutput> aovs;  ///< aovTexts, parsed
 };
 
+/// Rays for each pixel where a target or a limit decides: more than anyone waits for, few enough for every
+/// sampler.
+constexpr int kUntilStopped = 1 << 16;
+
+/// A target or a time limit without --rays-per-pixel means: as many as it takes.
+void settleRaysPerPixel(RenderOptions& o, bool given) {
+  if (given || (o.settings.targetError <= 0.0 && o.settings.timeLimit <= 0.0)) return;
+  if (o.settings.sampler == Sampler::Stratified)
+    throw InputError("--sampler: stratified divides each pixel by --rays-per-pixel, which is not given");
+  o.settings.raysPerPixel = kUntilStopped;
+}
+
 /// Fills in the default output and refuses, before anything is loaded, what could not be written at the end.
 void checkOutputs(RenderOptions& o) {
   if (o.outputs.empty() && o.stats.empty() && o.trace.empty() && o.aovTexts.empty() && !o.profile)
     o.outputs.emplace_back(o.scene.file.stem().string() + ".png");
-  OutputCheck check(o.scene.file);
+  OutputCheck check(o.scene.file, o.settings.width, o.settings.height);
   for (const auto& text : o.aovTexts)
     o.aovs.push_back(parseAov(text, {"depth", "normal", "albedo", "primitive"}));
   for (const auto& file : o.outputs) check.picture("--output", file);
@@ -133,6 +145,7 @@ void writeResults(const RenderOptions& o, RenderResult& result, Clock::time_poin
 }
 
 void report(const RenderOptions& o, const Stats& stats) {
+  if (isStandardOutput(o.stats) || isStandardOutput(o.trace)) return;
   if (o.profile) fmt::print("{}", profileTable(stats));
   if (o.scene.quiet) return;
   fmt::print("{}{}", o.profile ? "\n" : "", renderSummary(stats));
@@ -177,7 +190,8 @@ void addRender(CLI::App& app, int& status) {
   addSeveral(
       *c, "--aov", o->aovTexts, "NAME=FILE",
       "depth|normal|albedo|primitive of each pixel's first sample, as .exr; may be given several times");
-  addFile(*c, "--stats", o->stats, "FILE", "statistics as JSON");
+  addFile(*c, "--stats", o->stats, "FILE",
+          "statistics as JSON; -: on standard output, instead of the summary");
   c->add_flag("--profile", o->profile, "print time and rate of each stage");
   addFile(*c, "--trace", o->trace, "FILE", "every kernel launch as Chrome/Perfetto JSON");
   c->add_flag("--quiet", o->scene.quiet,
@@ -186,15 +200,18 @@ void addRender(CLI::App& app, int& status) {
   c->option_defaults()->group("Error against time");
   addReal(*c, "--target-error", o->settings.targetError, 0, 1e30, "E",
           "stop once the estimated RMSE in W/(m² sr) is at most this", "0: never");
-  addReal(*c, "--time-limit", o->settings.timeLimit, 0, 1e9, "SECONDS",
-          "start no further pass after this much rendering", "0: none");
+  addReal(
+      *c, "--time-limit", o->settings.timeLimit, 0, 1e9, "SECONDS",
+      "start no pass that would end after this much rendering; two samples of each pixel are always taken",
+      "0: none");
   addFile(*c, "--reference", o->reference, "FILE",
           "measure the true RMSE against this .exr after each pass, for --stats");
   addDeviceOptions(*c, o->settings);
   addFile(*c, "--kernels", o->kernelFolder, "FOLDER",
           "read kernels from here, not from the program (for developers)");
   c->footer("Example: whittle render scene.glb -o a.png -o a.exr --stats stats.json");
-  c->callback([o, &status] {
+  c->callback([o, c, &status] {
+    settleRaysPerPixel(*o, c->count("--rays-per-pixel") > 0);
     runRender(*o);
     status = 0;
   });

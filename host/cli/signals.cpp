@@ -12,12 +12,17 @@ namespace {
 volatile std::sig_atomic_t held = 0;
 volatile std::sig_atomic_t waiting = 0;  // the signal that came while held, or 0
 volatile std::sig_atomic_t wipes = 0;
+volatile std::sig_atomic_t wrote = 0;  // a hold has ended: files may be there
 
 void die(int signal) {
   if (wipes) {
     static constexpr char kWipe[] = "\r\033[K";
     [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kWipe, sizeof(kWipe) - 1);
   }
+  static constexpr char kNothing[] = "whittle: interrupted, nothing written\n";
+  static constexpr char kDone[] = "whittle: interrupted\n";
+  [[maybe_unused]] const auto ignored = wrote ? ::write(STDERR_FILENO, kDone, sizeof(kDone) - 1)
+                                              : ::write(STDERR_FILENO, kNothing, sizeof(kNothing) - 1);
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -51,6 +56,7 @@ void installSignals(bool clearLine) {
 HoldSignals::HoldSignals() { held = 1; }
 
 HoldSignals::~HoldSignals() {
+  wrote = 1;
   held = 0;
   if (waiting != 0) die(waiting);
 }

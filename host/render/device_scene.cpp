@@ -16,7 +16,7 @@ static_assert(sizeof(device::DeviceTriangle) == 48);
 static_assert(sizeof(device::DeviceLight) == 64);
 static_assert(sizeof(device::DeviceTexture) == 52);
 static_assert(sizeof(device::DeviceMaterial) == 112);
-static_assert(sizeof(device::DeviceCamera) == 80);
+static_assert(sizeof(device::DeviceCamera) == 128);
 
 /// Texture slots and texels of the images they use, shared where two slots read the same image.
 class TextureAtlas {

@@ -15,6 +15,7 @@
 #include "cl/device.h"
 #include "cl/kernel_source.h"
 #include "cl/program.h"
+#include "render/camera_to_device.h"
 #include "render/film.h"
 #include "render/pixel_order.h"
 #include "render/plan.h"
@@ -30,25 +31,6 @@ double secondsSince(Clock::time_point start) {
 }
 
 void copy3(float* out, const glm::vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
-
-device::DeviceCamera cameraToDevice(const Camera& camera, const Settings& s) {
-  device::DeviceCamera d{};
-  copy3(d.position, camera.position);
-  copy3(d.right, camera.right);
-  copy3(d.up, camera.up);
-  copy3(d.forward, camera.forward);
-  const double aspect = static_cast<double>(s.width) / s.height;
-  const double half = camera.orthographic ? camera.ymag : std::tan(0.5 * static_cast<double>(camera.yfov));
-  d.scaleX = static_cast<float>(aspect * half);
-  d.scaleY = static_cast<float>(half);
-  d.orthographic = camera.orthographic;
-  d.seed = s.seed;
-  d.width = static_cast<std::uint32_t>(s.width);
-  d.height = static_cast<std::uint32_t>(s.height);
-  d.raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel);
-  d.sampler = static_cast<std::uint32_t>(s.sampler);
-  return d;
-}
 
 device::RenderConstants constantsToDevice(const Scene& scene, const Settings& s) {
   device::RenderConstants c{};
@@ -98,14 +80,15 @@ void checkLimits(const Settings& s) {
 /// Everything a render holds between its phases.
 class Session {
  public:
-  Session(const Scene& scene, const Settings& settings, const RenderHooks& hooks)
-      : scene_(scene), settings_(settings), hooks_(hooks) {
+  Session(const Scene& scene, const Settings& settings, const RenderHooks& hooks,
+          Compute::Memory memory = Compute::Memory::Real)
+      : scene_(scene), settings_(settings), hooks_(hooks), memory_(memory) {
     checkLimits(settings_);
     cameraIndex_ = findCamera(scene_, settings_.camera);
     say("opening the device");
     const auto opening = Clock::now();
     limitCpuThreads(settings_.threads);
-    compute_.emplace(selectDevice(listDevices(), settings_.device));
+    compute_.emplace(selectDevice(listDevices(), settings_.device), memory_);
     tracePhase("open the device", opening);
     if (settings_.threads > 0)
       tbbLimit_.emplace(tbb::global_control::max_allowed_parallelism, settings_.threads);
@@ -124,7 +107,7 @@ class Session {
     return finish();
   }
 
-  /// Allocates everything and launches nothing.
+  /// Sizes of everything; needs a session with Memory::SizesOnly.
   RenderPlan plan() {
     allocate();
     queues_->reserve(features_.has(Feature::IMPULSES) ? 2 : 1);
@@ -165,26 +148,63 @@ class Session {
     wavefront_.emplace(*compute_, *stages_, *queues_, setup, pixelOrder_, film_, aovs_);
   }
 
+  /// Of the picture, before anything that takes time: too large a picture is refused at once.
+  void allocateFilm() {
+    const std::size_t pixels = static_cast<std::size_t>(settings_.width) * settings_.height;
+    const std::size_t film = pixels * FILM_PLANES * sizeof(float), order = pixels * sizeof(std::uint32_t);
+    const std::size_t aovs = features_.has(Feature::AOVS) ? pixels * AOV_PLANES * sizeof(float) : 0;
+    const DeviceInfo& device = compute_->device();
+    if (film + order + aovs > device.globalMemory)
+      throw ClError(fmt::format("a picture of {}×{} needs {} for its film but {} has {}", settings_.width,
+                                settings_.height, formatBytes(film + order + aovs), device.name,
+                                formatBytes(device.globalMemory)));
+    film_ = compute_->allocate("film", film);
+    pixelOrder_ = compute_->allocate("pixelOrder", order);
+    aovs_ = compute_->allocate("aovs", aovs);
+    if (memory_ == Compute::Memory::SizesOnly) return;
+    pixelOrderTable_ = makePixelOrder(static_cast<std::uint32_t>(settings_.width),
+                                      static_cast<std::uint32_t>(settings_.height));
+    compute_->write(pixelOrder_, pixelOrderTable_.data());
+    compute_->fillZero(film_);
+  }
+
   void allocate() {
     auto start = Clock::now();
+    allocateFilm();
+    const double film = secondsSince(start);
+    start = Clock::now();
     const TriTree tree = buildTree(scene_, features_.has(Feature::TREE));
     stats_.time.build = secondsSince(start);
     tracePhase("build tree", start);
     start = Clock::now();
     deviceScene_ = uploadScene(*compute_, scene_, tree, features_);
-    const auto pixels = static_cast<std::size_t>(settings_.width) * settings_.height;
-    pixelOrderTable_ = makePixelOrder(static_cast<std::uint32_t>(settings_.width),
-                                      static_cast<std::uint32_t>(settings_.height));
-    pixelOrder_ = compute_->upload("pixelOrder", pixelOrderTable_);
-    film_ = compute_->allocate("film", pixels * FILM_PLANES * sizeof(float));
-    compute_->fillZero(film_);
-    if (features_.has(Feature::AOVS)) aovs_ = compute_->allocate("aovs", pixels * AOV_PLANES * sizeof(float));
     queues_.emplace(*compute_, features_, roundedCapacity(settings_), compactChunk_);
-    stats_.time.upload = secondsSince(start);
+    stats_.time.upload = film + secondsSince(start);
     tracePhase("upload", start);
   }
 
-  /// All samples in one pass, or in doubling passes where a limit or an error target wants to look in
+  /// Samples of the next pass: as many as there are so far, as long as they fit into the time that is left;
+  /// 0: none fits any more. `pass` and `seconds`: the last one.
+  int nextPass(double elapsed, int pass, double seconds) const {
+    const int wanted = std::min(std::max(1, samplesDone_), settings_.raysPerPixel - samplesDone_);
+    if (settings_.timeLimit <= 0.0 || samplesDone_ < 2) return wanted;
+    const double fitting = (settings_.timeLimit - elapsed) / std::max(seconds, 1e-9) * pass;
+    return fitting >= wanted ? wanted : std::max(0, static_cast<int>(fitting));
+  }
+
+  /// What the whole will take by the last estimate (the error falls with the root of the samples) and the
+  /// time limit.
+  std::uint64_t expectedSamples(double elapsed) const {
+    double samples = settings_.raysPerPixel;
+    if (settings_.targetError > 0.0 && !stats_.error.empty() && stats_.error.back().estimate > 0.0)
+      samples = std::min(samples, stats_.error.back().raysPerPixel *
+                                      std::pow(stats_.error.back().estimate / settings_.targetError, 2));
+    if (settings_.timeLimit > 0.0 && samplesDone_ > 0)
+      samples = std::min(samples, samplesDone_ * settings_.timeLimit / std::max(elapsed, 1e-9));
+    return static_cast<std::uint64_t>(std::max(samples, 1.0 + samplesDone_));
+  }
+
+  /// All samples in one pass, or in passes that double them where a limit or an error target wants to look in
   /// between.
   void passes() {
     say("rendering");
@@ -192,21 +212,26 @@ class Session {
     const bool looks = settings_.timeLimit > 0.0 || settings_.targetError > 0.0 || hooks_.reference;
     const int total = settings_.raysPerPixel;
     const std::uint64_t pixels = static_cast<std::uint64_t>(settings_.width) * settings_.height;
-    while (samplesDone_ < total) {
-      const int pass = looks ? std::min(std::max(1, samplesDone_), total - samplesDone_) : total;
+    int pass = looks ? 1 : total;
+    while (pass > 0 && samplesDone_ < total) {
+      const double began = secondsSince(start);
       const std::uint64_t before = pixels * static_cast<std::uint64_t>(samplesDone_);
+      const std::uint64_t expected = pixels * expectedSamples(began);
       wavefront_->trace(static_cast<std::uint32_t>(samplesDone_), static_cast<std::uint32_t>(pass),
                         [&](std::uint64_t done) {
                           const auto& t = wavefront_->tally();
                           if (hooks_.progress)
-                            hooks_.progress({before + done, pixels * static_cast<std::uint64_t>(total),
+                            hooks_.progress({before + done, std::max(expected, before + done),
                                              secondsSince(start), t.primary + t.impulse + t.shadow});
                         });
       samplesDone_ += pass;
-      if (!looks || (samplesDone_ < 2 && !hooks_.reference)) continue;
-      const double estimate = look(secondsSince(start));
-      if (settings_.timeLimit > 0.0 && secondsSince(start) >= settings_.timeLimit) break;
-      if (settings_.targetError > 0.0 && samplesDone_ >= 2 && estimate <= settings_.targetError) break;
+      if (!looks) break;
+      if (samplesDone_ >= 2 || hooks_.reference) {
+        const double estimate = look(secondsSince(start));
+        if (settings_.targetError > 0.0 && samplesDone_ >= 2 && estimate <= settings_.targetError) break;
+      }
+      const double elapsed = secondsSince(start);
+      pass = nextPass(elapsed, pass, elapsed - began);
     }
     clTry("waiting for the last kernels", [&] { compute_->queue().finish(); });
     stats_.time.render = secondsSince(start);
@@ -292,6 +317,7 @@ class Session {
   const Scene& scene_;
   Settings settings_;
   const RenderHooks& hooks_;
+  Compute::Memory memory_;
   std::size_t cameraIndex_ = 0;
   SceneFeatures features_;
   std::uint32_t compactChunk_ = 0;
@@ -329,7 +355,7 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
 
 RenderPlan planRender(const Scene& scene, const Settings& settings) {
   const RenderHooks none;
-  return Session(scene, settings, none).plan();
+  return Session(scene, settings, none, Compute::Memory::SizesOnly).plan();
 }
 
 }  // namespace whittle

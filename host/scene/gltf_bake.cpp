@@ -229,7 +229,8 @@ void Baker::finish(Notices& notices) {
                              flattened_, flattenedBy_));
   }
   if (degenerate_ > flattened_) {
-    notices.note(fmt::format("{} triangles of no area dropped", degenerate_ - flattened_));
+    const auto count = degenerate_ - flattened_;
+    notices.note(fmt::format("{} triangle{} of no area dropped", count, count == 1 ? "" : "s"));
   }
 }
 

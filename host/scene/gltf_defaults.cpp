@@ -107,14 +107,18 @@ Light directional(const char* name, const glm::vec3& direction, const glm::vec3&
 
 }  // namespace
 
-void addDefaults(Scene& scene, Notices& notices, bool lightEmitters) {
+void addDefaults(Scene& scene, Notices& notices, const LoadOptions& options) {
   if (scene.cameras.empty()) {
     scene.cameras.push_back(framingCamera(scene));
     notices.note("no camera in the file: one was added that frames the scene");
   }
   const bool isBlack = scene.background.map.empty() && scene.background.radiance == glm::vec3(0.0F);
-  if (!scene.lights.empty() || !isBlack) return;
-  if (!lightEmitters && hasEmitters(scene)) {
+  if (!scene.lights.empty() || !isBlack) {
+    if (options.defaultLights && !scene.lights.empty())
+      notices.note("--default-lights adds nothing: the file has lights of its own");
+    return;
+  }
+  if (!options.defaultLights && hasEmitters(scene)) {
     if (hasLitSurfaces(scene))
       notices.note(
           "no light in the file, only surfaces that glow, and those light nothing: --default-lights adds a "
@@ -128,6 +132,10 @@ void addDefaults(Scene& scene, Notices& notices, bool lightEmitters) {
   const glm::vec3 fromFill = eye.forward * 0.6F - eye.right * 0.8F - eye.up * 0.2F;
   scene.lights.push_back(directional("default sun", fromSun, glm::vec3(2.5F), true));
   scene.lights.push_back(directional("default fill", fromFill, glm::vec3(0.6F), false));
+  if (!options.defaultBackground) {
+    notices.note("no light in the file: a sun with shadows and a fill light without were added");
+    return;
+  }
   scene.background.radiance = glm::vec3(0.13F, 0.15F, 0.18F);
   notices.note(
       "no light in the file: a sun with shadows, a fill light without and a grey-blue background were added");

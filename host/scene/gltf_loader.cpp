@@ -163,7 +163,7 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, No
   } catch (const std::length_error&) {
     document.fail("needs more memory than there is");
   }
-  addDefaults(scene, notices, options.defaultLights);
+  addDefaults(scene, notices, options);
   return scene;
 }
 

@@ -13,6 +13,7 @@ namespace whittle {
 struct LoadOptions {
   std::optional<std::string> sceneName;  ///< name or index; default: the file's default scene, else the first
   bool defaultLights = false;            ///< add the default lights to a file that has emitters but no lights
+  bool defaultBackground = true;         ///< with the default lights, add a dim background too
 };
 
 /// Reads `path`. Throws InputError with one line if it cannot be used; says in `notices` what was ignored or
@@ -21,8 +22,8 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, No
 
 /// A camera that frames the scene where it has none; a sun with shadows plus a fill light without, and a dim
 /// constant background, where it has neither lights nor emitters nor a background. Both are noted.
-/// `lightEmitters`: a file with emitters gets the lights too; without it a note says that emitters alone
-/// light nothing.
-void addDefaults(Scene& scene, Notices& notices, bool lightEmitters = false);
+/// options.defaultLights: a file with emitters gets the lights too; without it a note says that emitters
+/// alone light nothing.
+void addDefaults(Scene& scene, Notices& notices, const LoadOptions& options = {});
 
 }  // namespace whittle

@@ -107,12 +107,16 @@ void warnOfRange(const Material& m, const std::string& label, Notices& notices) 
   if (strange) notices.warn(fmt::format("{}: a factor is outside its range", label));
 }
 
+/// Roughness from which clear glass looks wrong; textures may make a surface smoother than its factor.
+bool transmitsRoughly(const Material& m) { return m.transmission > 0.0F && m.roughness > 0.2F; }
+
 }  // namespace
 
 std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, Scene& scene,
                                Notices& notices) {
   std::vector<int> indices(document.model.materials.size() + 1, -1);
   TextureReader textures(document, scene, notices);
+  int rough = 0;
   for (const int index : wanted) {
     if (index < 0) continue;
     const auto i = static_cast<std::size_t>(index);
@@ -124,9 +128,14 @@ std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, 
     readBase(document.model.materials[i], json, textures, material);
     readExtensions(json, label, textures, material, notices);
     warnOfRange(material, label, notices);
+    rough += transmitsRoughly(material);
     indices[i + 1] = static_cast<int>(scene.materials.size());
     scene.materials.push_back(std::move(material));
   }
+  if (rough > 0)
+    notices.note(fmt::format("{} transmit{} light through a rough surface: drawn clear",
+                             rough == 1 ? "1 material" : fmt::format("{} materials", rough),
+                             rough == 1 ? "s" : ""));
   if (wanted.contains(-1)) {
     indices[0] = static_cast<int>(scene.materials.size());
     Material fallback;

@@ -2,15 +2,15 @@
 // (mirror reflection, refraction, straight transmission). Formulas: host/reference/README.md.
 #include "lib/surfel.cl"
 
-int isSmooth(const RenderConstants* constants, const Surfel* s) { return s->roughness < constants->mirrorRoughness; }
+INLINE int isSmooth(const RenderConstants* constants, const Surfel* s) { return s->roughness < constants->mirrorRoughness; }
 
 /// Ratio of indices n_t/n_i for light arriving from the viewer's side.
-float interfaceEta(const Surfel* s) {
+INLINE float interfaceEta(const Surfel* s) {
   return (s->front || !(s->flags & MATERIAL_VOLUME)) ? s->ior : 1.0f / s->ior;
 }
 
 /// Dielectric reflectance seen along w_o; total: set at total reflection. cosT as in fresnelDielectric.
-float3 dielectricReflectance(const Surfel* s, float cosine, float* cosT, int* total) {
+INLINE float3 dielectricReflectance(const Surfel* s, float cosine, float* cosT, int* total) {
   *total = 0;
   *cosT = cosine;
   const float ratio = (s->ior - 1.0f) / (s->ior + 1.0f);
@@ -32,7 +32,7 @@ float3 dielectricReflectance(const Surfel* s, float cosine, float* cosT, int* to
 }
 
 /// f(w_i, w_o), 1/sr, without impulses; both directions on the side of n.
-float3 finiteScattering(const RenderConstants* constants, const Surfel* s, float3 w_o, float3 w_i) {
+INLINE float3 finiteScattering(const RenderConstants* constants, const Surfel* s, float3 w_o, float3 w_i) {
   const float cosO = dot3(s->n, w_o);
   const float dielectric = 1.0f - s->metallic;
   const float3 diffuse = s->baseColor * (1.0f / PI) * (1.0f - s->transmission);
@@ -74,7 +74,7 @@ typedef struct {
 } Impulse;
 
 #if HAS(MIRROR) || HAS(REFRACTION)
-Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, float3 w_o, float cosine, float3 reflectance, int total) {
+INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, float3 w_o, float cosine, float3 reflectance, int total) {
   Impulse impulse;
   const float3 n = s->n;
   impulse.w_i = 2.0f * cosine * n - w_o;
@@ -96,7 +96,7 @@ Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, float3 
 #if HAS(TRANSMISSION)
 #if HAS(REFRACTION)
 /// Refracted direction about n, or 0 at total reflection.
-float3 refracted(float3 n, float3 w_o, float eta) {
+INLINE float3 refracted(float3 n, float3 w_o, float eta) {
   const float cosine = fmin(dot3(n, w_o), 1.0f);
   const float sin2 = 1.0f - cosine * cosine;
   const float sin2T = (sin2 > 0.0f ? sin2 : 0.0f) / (eta * eta);
@@ -105,7 +105,7 @@ float3 refracted(float3 n, float3 w_o, float eta) {
 }
 #endif
 
-Impulse transmissionImpulse(const Surfel* s, float3 w_o, float3 reflectance) {
+INLINE Impulse transmissionImpulse(const Surfel* s, float3 w_o, float3 reflectance) {
   Impulse impulse;
   impulse.w_i = -w_o;
   impulse.magnitude = s->alpha * (1.0f - s->metallic) * s->transmission * s->baseColor * ((float3)(1.0f) - reflectance);
@@ -124,7 +124,7 @@ Impulse transmissionImpulse(const Surfel* s, float3 w_o, float3 reflectance) {
 #endif
 
 /// The impulses of a surfel, at most two, in their fixed order.
-void impulsesAt(const RenderConstants* constants, const Surfel* s, float3 w_o, Impulse* first, Impulse* second) {
+INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, float3 w_o, Impulse* first, Impulse* second) {
   first->magnitude = (float3)(0.0f);
   second->magnitude = (float3)(0.0f);
   first->w_i = second->w_i = -w_o;

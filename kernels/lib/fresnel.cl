@@ -3,7 +3,7 @@
 
 /// Unpolarised reflectance at an interface; eta = n_t / n_i, cosine = n·w_o in [0, 1]. 1 at total reflection.
 /// cosT receives the cosine of the refracted ray (0 at total reflection).
-float fresnelDielectric(float cosine, float eta, float* cosT) {
+INLINE float fresnelDielectric(float cosine, float eta, float* cosT) {
   const float sin2 = 1.0f - cosine * cosine;
   const float sin2T = (sin2 > 0.0f ? sin2 : 0.0f) / (eta * eta);
   *cosT = 0.0f;
@@ -17,10 +17,10 @@ float fresnelDielectric(float cosine, float eta, float* cosT) {
 }
 
 /// (1 - cosine)^5
-float schlickWeight(float cosine) {
+INLINE float schlickWeight(float cosine) {
   const float m = 1.0f - cosine;
   const float m2 = m * m;
   return m2 * m2 * m;
 }
 
-float3 schlick(float3 f0, float3 f90, float cosine) { return f0 + (f90 - f0) * schlickWeight(cosine); }
+INLINE float3 schlick(float3 f0, float3 f90, float cosine) { return f0 + (f90 - f0) * schlickWeight(cosine); }

@@ -8,7 +8,7 @@ typedef struct {
   float3 biradiance;  // W/m² on a surface that faces the light, unshadowed
 } Illumination;
 
-float spotFactor(__global const DeviceLight* light, float3 w_i) {
+INLINE float spotFactor(__global const DeviceLight* light, float3 w_i) {
   const float3 sum = w_i + load3(light->direction);
   const float versine = 0.5f * dot3(sum, sum);
   if (!(versine < light->versineOuter)) return 0.0f;
@@ -17,7 +17,7 @@ float spotFactor(__global const DeviceLight* light, float3 w_i) {
   return c * c;
 }
 
-Illumination illuminationAt(__global const DeviceLight* light, float3 p) {
+INLINE Illumination illuminationAt(__global const DeviceLight* light, float3 p) {
   Illumination result;
   result.biradiance = (float3)(0.0f);
   result.w_i = (float3)(0.0f);

@@ -22,43 +22,78 @@ typedef struct {
   float3 sigma_a;
 } Surfel;
 
-float2 interpolate2(__global const float* values, const uint* corner, float b0, float b1, float b2) {
-  __global const float* a = values + (size_t)corner[0] * 2;
-  __global const float* b = values + (size_t)corner[1] * 2;
-  __global const float* c = values + (size_t)corner[2] * 2;
-  return (float2)(b0 * a[0] + b1 * b[0] + b2 * c[0], b0 * a[1] + b1 * b[1] + b2 * c[1]);
+/// Where in its triangle a hit lies. Low parts: what b1 and b2 lost to rounding, 0 where nobody asked.
+typedef struct {
+  float b0, b1, b2;
+  float low1, low2;
+} Barycentrics;
+
+INLINE Barycentrics barycentrics(float b1, float b2) {
+  const Barycentrics b = {1.0f - b1 - b2, b1, b2, 0.0f, 0.0f};
+  return b;
 }
 
-void interpolateUv(const SceneView* scene, const uint* corner, float b0, float b1, float b2, float2* first, float2* second) {
-  *first = (float2)(0.0f, 0.0f);
-  *second = (float2)(0.0f, 0.0f);
+#if HAS(TEXTURES)
+/// Barycentrics of the hit at distance t of the ray o + t d, found again from where that point lies beside the first
+/// corner: a search's own are off by the rounding of distances to the ray's origin, which a texture shows on a far or
+/// slanted triangle. Solved once for (b1, b2) and once more for what they leave over; every difference keeps what it
+/// lost. An error of t is along d, and changes nothing. Clamped to the triangle; `found` where it is seen from its edge.
+INLINE Barycentrics refinedBarycentrics(const float3* p, float3 o, float3 d, float t, Barycentrics found) {
+  const float3 e1 = p[1] - p[0], e2 = p[2] - p[0];
+  const float3 from = o - p[0], along = t * d, beside = from + along;
+  const float3 besideLow =
+      sumError3(o, -p[0], from) + fma((float3)(t), d, -along) + sumError3(from, along, beside);
+  const float3 across1 = cross3(e2, d), across2 = cross3(d, e1);
+  const float inverse = 1.0f / dot3(e1, across1);
+  const float free1 = dot3(beside, across1) * inverse, free2 = dot3(beside, across2) * inverse;
+  if (!isfinite(free1) || !isfinite(free2)) return found;
+  const float b1 = clamp(free1, 0.0f, 1.0f), b2 = clamp(free2, 0.0f, 1.0f - b1);
+  Barycentrics b = barycentrics(b1, b2);
+  if (b1 != free1 || b2 != free2) return b;
+  const float3 part1 = b1 * e1, part2 = b2 * e2;
+  const float3 rest1 = beside - part1, rest2 = rest1 - part2;
+  const float3 lost = sumError3(beside, -part1, rest1) + sumError3(rest1, -part2, rest2) -
+                      (fma((float3)(b1), e1, -part1) + b1 * sumError3(p[1], -p[0], e1)) -
+                      (fma((float3)(b2), e2, -part2) + b2 * sumError3(p[2], -p[0], e2));
+  const float3 rest = rest2 + (besideLow + lost);
+  b.low1 = dot3(rest, across1) * inverse;
+  b.low2 = dot3(rest, across2) * inverse;
+  return b;
+}
+#endif
+
+/// Texture coordinate of a hit, and what its rounding lost. Coordinates may count many repeats of a picture.
+INLINE float interpolateUv(float a, float b, float c, const Barycentrics* at, float* low) {
+  const float e1 = b - a, e2 = c - a;
+  const float part1 = at->b1 * e1, part2 = at->b2 * e2;
+  const float with1 = a + part1, sum = with1 + part2;
+  *low = sumError(a, part1, with1) + sumError(with1, part2, sum) + fma(at->b1, e1, -part1) + fma(at->b2, e2, -part2) +
+         at->b1 * sumError(b, -a, e1) + at->b2 * sumError(c, -a, e2) + at->low1 * e1 + at->low2 * e2;
+  return sum;
+}
+
+INLINE void interpolateUvSet(__global const float* values, const uint* corner, const Barycentrics* at, float2* uv, float2* uvLow) {
+  const float2 a = vload2(corner[0], values), b = vload2(corner[1], values), c = vload2(corner[2], values);
+  float lowU, lowV;
+  const float u = interpolateUv(a.x, b.x, c.x, at, &lowU);
+  const float v = interpolateUv(a.y, b.y, c.y, at, &lowV);
+  *uv = (float2)(u, v);
+  *uvLow = (float2)(lowU, lowV);
+}
+
+/// Both sets of texture coordinates at a hit; 0 for a set that the scene has not.
+INLINE Uv uvAt(const SceneView* scene, const uint* corner, const Barycentrics* b) {
+  Uv uv = {(float2)(0.0f), (float2)(0.0f), (float2)(0.0f), (float2)(0.0f)};
 #if HAS(UV0)
-  if (scene->uv0) *first = interpolate2(scene->uv0, corner, b0, b1, b2);
+  if (scene->uv0) interpolateUvSet(scene->uv0, corner, b, &uv.first, &uv.firstLow);
 #endif
 #if HAS(UV1)
-  if (scene->uv1) *second = interpolate2(scene->uv1, corner, b0, b1, b2);
+  if (scene->uv1) interpolateUvSet(scene->uv1, corner, b, &uv.second, &uv.secondLow);
 #endif
+  return uv;
 }
 
-/// Base colour and alpha: factor, texture, vertex colour.
-float4 baseColorAt(const SceneView* scene, __global const DeviceMaterial* m, const uint* corner, float b0, float b1,
-                   float b2, float2 uvFirst, float2 uvSecond) {
-  float4 c = (float4)(m->baseColor[0], m->baseColor[1], m->baseColor[2], m->baseColor[3]);
-#if HAS(BASE_COLOR_TEXTURE)
-  if (m->baseColorTexture >= 0) c *= sampleTexture(scene, m->baseColorTexture, uvFirst, uvSecond, 1);
-#endif
-#if HAS(VERTEX_COLORS)
-  if (scene->colors) {
-    const float4 v0 = vload4(corner[0], scene->colors);
-    const float4 v1 = vload4(corner[1], scene->colors);
-    const float4 v2 = vload4(corner[2], scene->colors);
-    c *= b0 * v0 + b1 * v1 + b2 * v2;
-  }
-#endif
-  return c;
-}
-
-void loadCorners(const SceneView* scene, uint primitive, uint* corner) {
+INLINE void loadCorners(const SceneView* scene, uint primitive, uint* corner) {
 #if HAS(VERTEX_NORMALS) || HAS(VERTEX_COLORS) || HAS(TEXTURES)
   __global const uint* c = scene->corners + (size_t)primitive * 3;
   corner[0] = c[0];
@@ -69,17 +104,49 @@ void loadCorners(const SceneView* scene, uint primitive, uint* corner) {
 #endif
 }
 
+/// A point of a triangle with all that lookups there need.
+typedef struct {
+  __global const DeviceTriangle* triangle;
+  __global const DeviceMaterial* material;
+  uint corner[3];
+  Barycentrics b;
+  Uv uv;
+} TrianglePoint;
+
+INLINE TrianglePoint trianglePoint(const SceneView* scene, uint triangleIndex, Barycentrics b) {
+  TrianglePoint p;
+  p.triangle = scene->triangles + triangleIndex;
+  p.material = scene->materials + p.triangle->material;
+  loadCorners(scene, p.triangle->primitive, p.corner);
+  p.b = b;
+  p.uv = uvAt(scene, p.corner, &b);
+  return p;
+}
+
+/// Base colour and alpha: factor, texture, vertex colour.
+INLINE float4 baseColorAt(const SceneView* scene, const TrianglePoint* p) {
+  __global const DeviceMaterial* m = p->material;
+  float4 c = (float4)(m->baseColor[0], m->baseColor[1], m->baseColor[2], m->baseColor[3]);
+#if HAS(BASE_COLOR_TEXTURE)
+  if (m->baseColorTexture >= 0) c *= sampleTexture(scene, m->baseColorTexture, &p->uv, 1);
+#endif
+#if HAS(VERTEX_COLORS)
+  if (scene->colors) {
+    const float4 v0 = vload4(p->corner[0], scene->colors);
+    const float4 v1 = vload4(p->corner[1], scene->colors);
+    const float4 v2 = vload4(p->corner[2], scene->colors);
+    c *= p->b.b0 * v0 + p->b.b1 * v1 + p->b.b2 * v2;
+  }
+#endif
+  return c;
+}
+
 /// How much of the light a surface lets straight through to a shadow ray; README "Direct light".
 /// For a masked triangle: 1 below the cutoff, else 0 (the hit counts).
-float3 shadowTransmittance(const SceneView* scene, uint triangleIndex, float b1, float b2, float3 d) {
-  __global const DeviceTriangle* triangle = scene->triangles + triangleIndex;
-  __global const DeviceMaterial* m = scene->materials + triangle->material;
-  const float b0 = 1.0f - b1 - b2;
-  uint corner[3];
-  loadCorners(scene, triangle->primitive, corner);
-  float2 uvFirst, uvSecond;
-  interpolateUv(scene, corner, b0, b1, b2, &uvFirst, &uvSecond);
-  const float4 c = baseColorAt(scene, m, corner, b0, b1, b2, uvFirst, uvSecond);
+INLINE float3 shadowTransmittance(const SceneView* scene, uint triangleIndex, float b1, float b2, float3 d) {
+  const TrianglePoint p = trianglePoint(scene, triangleIndex, barycentrics(b1, b2));
+  __global const DeviceMaterial* m = p.material;
+  const float4 c = baseColorAt(scene, &p);
   float alpha = 1.0f;
 #if HAS(ALPHA_MASK)
   if ((m->flags & MATERIAL_MASK) && c.w < m->alphaCutoff) return (float3)(1.0f, 1.0f, 1.0f);
@@ -92,16 +159,16 @@ float3 shadowTransmittance(const SceneView* scene, uint triangleIndex, float b1,
   float transmission = m->transmission;
   float metallic = m->metallic;
 #if HAS(TRANSMISSION_TEXTURE)
-  if (m->transmissionTexture >= 0) transmission *= sampleTexture(scene, m->transmissionTexture, uvFirst, uvSecond, 0).x;
+  if (m->transmissionTexture >= 0) transmission *= sampleTexture(scene, m->transmissionTexture, &p.uv, 0).x;
 #endif
 #if HAS(METALLIC_ROUGHNESS_TEXTURE)
   if (m->metallicRoughnessTexture >= 0)
-    metallic *= sampleTexture(scene, m->metallicRoughnessTexture, uvFirst, uvSecond, 0).z;
+    metallic *= sampleTexture(scene, m->metallicRoughnessTexture, &p.uv, 0).z;
 #endif
   metallic = clamp(metallic, 0.0f, 1.0f);
   if (transmission > 0.0f && !(m->flags & MATERIAL_UNLIT)) {
-    const float3 p0 = load3(triangle->v[0]), p1 = load3(triangle->v[1]), p2 = load3(triangle->v[2]);
-    const float3 n_g = normalize3(cross3(p1 - p0, p2 - p0));
+    const float3 p0 = load3(p.triangle->v[0]);
+    const float3 n_g = normalize3(cross3(load3(p.triangle->v[1]) - p0, load3(p.triangle->v[2]) - p0));
     float cosT;
     const float reflected = m->ior == 0.0f ? 1.0f : fresnelDielectric(fmin(fabs(dot3(n_g, d)), 1.0f), m->ior, &cosT);
     through += alpha * transmission * (1.0f - metallic) * (1.0f - reflected) * c.xyz;
@@ -111,43 +178,38 @@ float3 shadowTransmittance(const SceneView* scene, uint triangleIndex, float b1,
 }
 
 /// 1 if a masked triangle is really there at these barycentrics.
-int passesAlphaMask(const SceneView* scene, uint triangleIndex, float b1, float b2) {
-  __global const DeviceTriangle* triangle = scene->triangles + triangleIndex;
-  __global const DeviceMaterial* m = scene->materials + triangle->material;
-  const float b0 = 1.0f - b1 - b2;
-  uint corner[3];
-  loadCorners(scene, triangle->primitive, corner);
-  float2 uvFirst, uvSecond;
-  interpolateUv(scene, corner, b0, b1, b2, &uvFirst, &uvSecond);
-  return baseColorAt(scene, m, corner, b0, b1, b2, uvFirst, uvSecond).w >= m->alphaCutoff;
+INLINE int passesAlphaMask(const SceneView* scene, uint triangleIndex, float b1, float b2) {
+  const TrianglePoint p = trianglePoint(scene, triangleIndex, barycentrics(b1, b2));
+  return baseColorAt(scene, &p).w >= p.material->alphaCutoff;
 }
 
 #if HAS(VERTEX_NORMALS)
 /// Interpolated vertex normal, or n_g where a corner has none or the sum is useless.
-float3 vertexNormalAt(const SceneView* scene, const uint* corner, float b0, float b1, float b2, float3 n_g) {
+INLINE float3 vertexNormalAt(const SceneView* scene, const TrianglePoint* p, float3 n_g) {
   if (!scene->normals) return n_g;
-  const float3 a = load3(scene->normals + (size_t)corner[0] * 3);
-  const float3 b = load3(scene->normals + (size_t)corner[1] * 3);
-  const float3 c = load3(scene->normals + (size_t)corner[2] * 3);
+  const float3 a = load3(scene->normals + (size_t)p->corner[0] * 3);
+  const float3 b = load3(scene->normals + (size_t)p->corner[1] * 3);
+  const float3 c = load3(scene->normals + (size_t)p->corner[2] * 3);
   if (dot3(a, a) == 0.0f || dot3(b, b) == 0.0f || dot3(c, c) == 0.0f) return n_g;
-  const float3 sum = b0 * a + b1 * b + b2 * c;
+  const float3 sum = p->b.b0 * a + p->b.b1 * b + p->b.b2 * c;
   const float3 n = normalize3(sum);
   return isFinite3(n) ? n : n_g;
 }
 #endif
 
 #if HAS(NORMAL_TEXTURE)
-float3 mappedNormal(const SceneView* scene, __global const DeviceMaterial* m, const uint* corner, float b0, float b1,
-                    float b2, float2 uvFirst, float2 uvSecond, float3 n) {
+/// n tilted by the normal map; n itself where there is none or no tangent to lay it along.
+INLINE float3 mappedNormal(const SceneView* scene, const TrianglePoint* p, float3 n) {
+  __global const DeviceMaterial* m = p->material;
   if (m->normalTexture < 0 || !scene->tangents) return n;
-  const float4 a = vload4(corner[0], scene->tangents);
-  const float4 b = vload4(corner[1], scene->tangents);
-  const float4 c = vload4(corner[2], scene->tangents);
-  float3 tangent = b0 * a.xyz + b1 * b.xyz + b2 * c.xyz;
+  const float4 a = vload4(p->corner[0], scene->tangents);
+  const float4 b = vload4(p->corner[1], scene->tangents);
+  const float4 c = vload4(p->corner[2], scene->tangents);
+  float3 tangent = p->b.b0 * a.xyz + p->b.b1 * b.xyz + p->b.b2 * c.xyz;
   tangent = normalize3(tangent - n * dot3(n, tangent));
   if (!isFinite3(tangent)) return n;
   const float3 bitangent = a.w * cross3(n, tangent);
-  const float4 texel = sampleTexture(scene, m->normalTexture, uvFirst, uvSecond, 0);
+  const float4 texel = sampleTexture(scene, m->normalTexture, &p->uv, 0);
   const float x = (texel.x * 2.0f - 1.0f) * m->normalScale;
   const float y = (texel.y * 2.0f - 1.0f) * m->normalScale;
   const float z = texel.z * 2.0f - 1.0f;
@@ -157,8 +219,8 @@ float3 mappedNormal(const SceneView* scene, __global const DeviceMaterial* m, co
 #endif
 
 /// Reflectance at normal and grazing incidence of the dielectric part (KHR_materials_ior, KHR_materials_specular).
-void specularReflectance(const SceneView* scene, __global const DeviceMaterial* m, float2 uvFirst, float2 uvSecond,
-                         Surfel* s) {
+INLINE void specularReflectance(const SceneView* scene, const TrianglePoint* p, Surfel* s) {
+  __global const DeviceMaterial* m = p->material;
   const float ratio = (m->ior - 1.0f) / (m->ior + 1.0f);
   const float r0 = m->ior == 0.0f ? 1.0f : ratio * ratio;
   s->specularF0 = (float3)(r0);
@@ -167,10 +229,10 @@ void specularReflectance(const SceneView* scene, __global const DeviceMaterial* 
   float strength = m->specular;
   float3 tint = load3(m->specularColor);
 #if HAS(SPECULAR_TEXTURE)
-  if (m->specularTexture >= 0) strength *= sampleTexture(scene, m->specularTexture, uvFirst, uvSecond, 0).w;
+  if (m->specularTexture >= 0) strength *= sampleTexture(scene, m->specularTexture, &p->uv, 0).w;
 #endif
 #if HAS(SPECULAR_COLOR_TEXTURE)
-  if (m->specularColorTexture >= 0) tint *= sampleTexture(scene, m->specularColorTexture, uvFirst, uvSecond, 1).xyz;
+  if (m->specularColorTexture >= 0) tint *= sampleTexture(scene, m->specularColorTexture, &p->uv, 1).xyz;
 #endif
   const float3 f0 = r0 * tint;
   s->specularF0 = (float3)(f0.x < 1.0f ? f0.x : 1.0f, f0.y < 1.0f ? f0.y : 1.0f, f0.z < 1.0f ? f0.z : 1.0f) * strength;
@@ -178,20 +240,26 @@ void specularReflectance(const SceneView* scene, __global const DeviceMaterial* 
 #endif
 }
 
-/// The surfel at hit (triangle, b1, b2) of a ray along d.
-Surfel surfelAt(const SceneView* scene, const RenderConstants* constants, uint triangleIndex, float b1, float b2, float3 d) {
+/// The surfel at the hit (triangle, t, b1, b2) of the ray o + t d.
+INLINE Surfel surfelAt(const SceneView* scene, const RenderConstants* constants, uint triangleIndex, float3 o, float3 d, float t,
+                float b1, float b2) {
   Surfel s;
   __global const DeviceTriangle* triangle = scene->triangles + triangleIndex;
-  __global const DeviceMaterial* m = scene->materials + triangle->material;
-  const float b0 = 1.0f - b1 - b2;
   const float3 p0 = load3(triangle->v[0]), p1 = load3(triangle->v[1]), p2 = load3(triangle->v[2]);
-  s.position = b0 * p0 + b1 * p1 + b2 * p2;
+  Barycentrics b = barycentrics(b1, b2);
+#if HAS(TEXTURES)
+  const float3 corners[3] = {p0, p1, p2};
+  b = refinedBarycentrics(corners, o, d, t, b);
+#endif
+  const TrianglePoint p = trianglePoint(scene, triangleIndex, b);
+  __global const DeviceMaterial* m = p.material;
+  s.position = b.b0 * p0 + b.b1 * p1 + b.b2 * p2;
 #if HAS(FIXED_BUMP)
   s.bump = constants->bump;
   if (s.bump < 0.0f)
 #endif
   {
-    const float3 extent = b0 * fabs(p0) + b1 * fabs(p1) + b2 * fabs(p2);
+    const float3 extent = b.b0 * fabs(p0) + b.b1 * fabs(p1) + b.b2 * fabs(p2);
     const float largest = extent.x > extent.y ? (extent.x > extent.z ? extent.x : extent.z)
                                               : (extent.y > extent.z ? extent.y : extent.z);
     const float scaled = largest * 9.5367431640625e-7f;  // 2^-20
@@ -200,23 +268,18 @@ Surfel surfelAt(const SceneView* scene, const RenderConstants* constants, uint t
   const float3 n_g = normalize3(cross3(p1 - p0, p2 - p0));
   s.front = dot3(n_g, d) < 0.0f;
   s.flags = m->flags;
-  uint corner[3];
-  loadCorners(scene, triangle->primitive, corner);
-  float2 uvFirst, uvSecond;
-  interpolateUv(scene, corner, b0, b1, b2, &uvFirst, &uvSecond);
-
   float3 n = n_g;
 #if HAS(VERTEX_NORMALS)
-  n = vertexNormalAt(scene, corner, b0, b1, b2, n_g);
+  n = vertexNormalAt(scene, &p, n_g);
 #endif
 #if HAS(NORMAL_TEXTURE)
-  n = mappedNormal(scene, m, corner, b0, b1, b2, uvFirst, uvSecond, n);
+  n = mappedNormal(scene, &p, n);
 #endif
   s.n_g = s.front ? n_g : -n_g;
   n = s.front ? n : -n;
   s.n = dot3(n, d) < 0.0f ? n : s.n_g;
 
-  const float4 c = baseColorAt(scene, m, corner, b0, b1, b2, uvFirst, uvSecond);
+  const float4 c = baseColorAt(scene, &p);
   s.baseColor = c.xyz;
   s.alpha = 1.0f;
 #if HAS(ALPHA_BLEND)
@@ -226,7 +289,7 @@ Surfel surfelAt(const SceneView* scene, const RenderConstants* constants, uint t
   s.roughness = m->roughness;
 #if HAS(METALLIC_ROUGHNESS_TEXTURE)
   if (m->metallicRoughnessTexture >= 0) {
-    const float4 texel = sampleTexture(scene, m->metallicRoughnessTexture, uvFirst, uvSecond, 0);
+    const float4 texel = sampleTexture(scene, m->metallicRoughnessTexture, &p.uv, 0);
     s.metallic *= texel.z;
     s.roughness *= texel.y;
   }
@@ -235,17 +298,17 @@ Surfel surfelAt(const SceneView* scene, const RenderConstants* constants, uint t
   s.roughness = clamp(s.roughness, 0.0f, 1.0f);
   s.transmission = m->transmission;
 #if HAS(TRANSMISSION_TEXTURE)
-  if (m->transmissionTexture >= 0) s.transmission *= sampleTexture(scene, m->transmissionTexture, uvFirst, uvSecond, 0).x;
+  if (m->transmissionTexture >= 0) s.transmission *= sampleTexture(scene, m->transmissionTexture, &p.uv, 0).x;
 #endif
   s.ior = m->ior;
   s.sigma_a = load3(m->sigma_a);
-  specularReflectance(scene, m, uvFirst, uvSecond, &s);
+  specularReflectance(scene, &p, &s);
   s.emission = (float3)(0.0f);
 #if HAS(EMISSION)
   if (s.front || (m->flags & MATERIAL_DOUBLE_SIDED)) {
     s.emission = load3(m->emission);
 #if HAS(EMISSION_TEXTURE)
-    if (m->emissionTexture >= 0) s.emission *= sampleTexture(scene, m->emissionTexture, uvFirst, uvSecond, 1).xyz;
+    if (m->emissionTexture >= 0) s.emission *= sampleTexture(scene, m->emissionTexture, &p.uv, 1).xyz;
 #endif
   }
 #endif

@@ -1,22 +1,37 @@
 // Texture lookups: level 0, bilinear or nearest, wrap modes, sRGB decoded for each texel before filtering.
 #include "lib/scene.cl"
 
-/// Reduces a coordinate to [0, 1] by its wrap mode.
-float wrapCoordinate(float u, uint mode) {
-  if (mode == WRAP_REPEAT) return u - floor(u);
-  if (mode == WRAP_CLAMP) return u > 0.0f ? (u < 1.0f ? u : 1.0f) : 0.0f;
-  const float m = u - 2.0f * floor(u * 0.5f);
+/// Texture coordinates of both sets, each with what its rounding lost: beside a count of many repeats a float's last
+/// bit is a good part of a texel.
+typedef struct {
+  float2 first, firstLow, second, secondLow;
+} Uv;
+
+/// Reduces u + low to [0, 1] by its wrap mode; to within the size of low.
+INLINE float wrapCoordinate(float u, float low, uint mode) {
+  if (mode == WRAP_REPEAT) return (u - floor(u)) + low;
+  if (mode == WRAP_CLAMP) return u > 0.0f ? (u < 1.0f ? u + low : 1.0f) : 0.0f;
+  const float m = (u - 2.0f * floor(u * 0.5f)) + low;
   return m > 1.0f ? 2.0f - m : m;
 }
 
+/// One row of a texture transform, and what its rounding lost.
+INLINE float transformCoordinate(__global const float* row, float2 uv, float2 uvLow, float* low) {
+  const float part0 = row[0] * uv.x, part1 = row[1] * uv.y;
+  const float both = part0 + part1, sum = both + row[2];
+  *low = fma(row[0], uv.x, -part0) + fma(row[1], uv.y, -part1) + sumError(part0, part1, both) +
+         sumError(both, row[2], sum) + row[0] * uvLow.x + row[1] * uvLow.y;
+  return sum;
+}
+
 /// Texel index after wrapping; one step outside is all that filtering asks for. Clamped, so that no load is outside.
-int wrapTexel(int i, int size, uint mode) {
+INLINE int wrapTexel(int i, int size, uint mode) {
   if (i < 0) i = mode == WRAP_REPEAT ? size - 1 : 0;
   if (i >= size) i = mode == WRAP_REPEAT ? i - size : size - 1;
   return i < 0 ? 0 : (i >= size ? size - 1 : i);
 }
 
-float4 fetchTexel(const SceneView* scene, __global const DeviceTexture* texture, int x, int y, int srgb) {
+INLINE float4 fetchTexel(const SceneView* scene, __global const DeviceTexture* texture, int x, int y, int srgb) {
   const uint word = scene->texels[texture->firstTexel + (uint)y * (uint)texture->width + (uint)x];
   const uint4 c = (uint4)(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u, word >> 24);
   const float a = (float)c.w / 255.0f;
@@ -26,15 +41,16 @@ float4 fetchTexel(const SceneView* scene, __global const DeviceTexture* texture,
 }
 
 /// RGBA of a texture slot at the transformed coordinate; colours are linear.
-float4 sampleTexture(const SceneView* scene, int slot, float2 uvFirst, float2 uvSecond, int srgb) {
+INLINE float4 sampleTexture(const SceneView* scene, int slot, const Uv* uv, int srgb) {
   __global const DeviceTexture* texture = scene->textures + slot;
-  const float2 uv = texture->uvSet == 0 ? uvFirst : uvSecond;
-  __global const float* m = texture->transform;
-  float u = m[0] * uv.x + m[1] * uv.y + m[2];
-  float v = m[3] * uv.x + m[4] * uv.y + m[5];
-  if (!isfinite(u) || !isfinite(v)) return fetchTexel(scene, texture, 0, 0, srgb);
-  u = wrapCoordinate(u, texture->wrapS) * (float)texture->width;
-  v = wrapCoordinate(v, texture->wrapT) * (float)texture->height;
+  const float2 at = texture->uvSet == 0 ? uv->first : uv->second;
+  const float2 atLow = texture->uvSet == 0 ? uv->firstLow : uv->secondLow;
+  float uLow, vLow;
+  float u = transformCoordinate(texture->transform, at, atLow, &uLow);
+  float v = transformCoordinate(texture->transform + 3, at, atLow, &vLow);
+  if (!isfinite(u + uLow) || !isfinite(v + vLow)) return fetchTexel(scene, texture, 0, 0, srgb);
+  u = wrapCoordinate(u, uLow, texture->wrapS) * (float)texture->width;
+  v = wrapCoordinate(v, vLow, texture->wrapT) * (float)texture->height;
 #if HAS(NEAREST_FILTER)
   if (texture->nearest)
     return fetchTexel(scene, texture, wrapTexel((int)floor(u), texture->width, texture->wrapS),
@@ -53,7 +69,7 @@ float4 sampleTexture(const SceneView* scene, int slot, float2 uvFirst, float2 uv
 }
 
 #if HAS(BACKGROUND_MAP)
-float3 backgroundTexel(const SceneView* scene, const RenderConstants* constants, int x, int y) {
+INLINE float3 backgroundTexel(const SceneView* scene, const RenderConstants* constants, int x, int y) {
   const int w = constants->backgroundWidth, h = constants->backgroundHeight;
   x = x < 0 ? x + w : (x >= w ? x - w : x);
   x = x < 0 ? 0 : (x >= w ? w - 1 : x);
@@ -63,7 +79,7 @@ float3 backgroundTexel(const SceneView* scene, const RenderConstants* constants,
 #endif
 
 /// Radiance of a ray that leaves the scene along d.
-float3 backgroundRadiance(const SceneView* scene, const RenderConstants* constants, float3 d) {
+INLINE float3 backgroundRadiance(const SceneView* scene, const RenderConstants* constants, float3 d) {
   const float3 uniformRadiance = (float3)(constants->background[0], constants->background[1], constants->background[2]);
 #if HAS(BACKGROUND_MAP)
   if (constants->backgroundWidth > 0) {

@@ -22,13 +22,13 @@ typedef struct {
 } PacketHit;
 
 /// True if any lane's mask (all bits set or none) is set.
-int anyLane(int8 mask) {
+INLINE int anyLane(int8 mask) {
   const int4 a = mask.lo | mask.hi;
   const int2 b = a.lo | a.hi;
   return (b.x | b.y) != 0;
 }
 
-int allLanes(int8 mask) {
+INLINE int allLanes(int8 mask) {
   const int4 a = mask.lo & mask.hi;
   const int2 b = a.lo & a.hi;
   return (b.x & b.y) != 0;
@@ -149,7 +149,7 @@ int8 intersectPacket(const Packet* p, __global const DeviceTriangle* triangle, f
   return met;
 }
 
-void testNearestPacket(const SceneView* scene, const Packet* p, uint index, PacketHit* best) {
+INLINE void testNearestPacket(const SceneView* scene, const Packet* p, uint index, PacketHit* best) {
   __global const DeviceTriangle* triangle = scene->triangles + index;
   float8 t = (float8)(0.0f), b1 = (float8)(0.0f), b2 = (float8)(0.0f);
   int8 met = intersectPacket(p, triangle, best->t, &t, &b1, &b2);

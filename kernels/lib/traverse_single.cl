@@ -17,7 +17,7 @@ typedef struct {
 
 /// Entry distance of child c, or +inf if it is missed or lies beyond tMax. A ray that runs in the plane of a face gives
 /// 0 · inf = NaN there, which every comparison below takes for inside.
-float childEntry(const Ray* r, __global const Node* node, int c, float tMax) {
+INLINE float childEntry(const Ray* r, __global const Node* node, int c, float tMax) {
   float entry = 0.0f, leave = tMax;
   for (int a = 0; a < 3; ++a) {
     const float lo = (node->lo[c][a] - r->o[a]) * r->inverse[a];
@@ -31,7 +31,7 @@ float childEntry(const Ray* r, __global const Node* node, int c, float tMax) {
 }
 
 /// Keeps the candidate in `best` if it is nearer, or as near with a lower index.
-void testNearest(const SceneView* scene, const Ray* r, uint index, Hit* best) {
+INLINE void testNearest(const SceneView* scene, const Ray* r, uint index, Hit* best) {
   __global const DeviceTriangle* triangle = scene->triangles + index;
   Candidate c;
   if (!intersectTriangle(r, triangle, best->t, &c)) return;
@@ -47,7 +47,7 @@ void testNearest(const SceneView* scene, const Ray* r, uint index, Hit* best) {
 }
 
 /// Shadow ray: true once the light is blocked. `stops` collects -log2 of the transmittance in units of 2^-16.
-int testOcclusion(const SceneView* scene, const Ray* r, uint index, float tMax, uint* stops) {
+INLINE int testOcclusion(const SceneView* scene, const Ray* r, uint index, float tMax, uint* stops) {
   __global const DeviceTriangle* triangle = scene->triangles + index;
   Candidate c;
   if (!intersectTriangle(r, triangle, tMax, &c) || !(c.t < tMax)) return 0;
@@ -72,7 +72,7 @@ int testOcclusion(const SceneView* scene, const Ray* r, uint index, float tMax, 
 }
 
 /// Transmittance after a search that did not end blocked.
-float3 transmittanceFromStops(const uint* stops) {
+INLINE float3 transmittanceFromStops(const uint* stops) {
 #if HAS(FILTERED_SHADOWS)
   return (float3)(stops[0] > 1048576u ? 0.0f : exp2((float)stops[0] * -1.52587890625e-5f),
                   stops[1] > 1048576u ? 0.0f : exp2((float)stops[1] * -1.52587890625e-5f),
@@ -110,7 +110,7 @@ Hit nearestSingle(const SceneView* scene, const Ray* r) {
   }
 }
 
-float3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
+INLINE float3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
   uint stops[3] = {0, 0, 0};
   if (!isFiniteRay(r)) return (float3)(1.0f);
   int stack[MAX_TREE_DEPTH + 4];
@@ -144,7 +144,7 @@ Hit nearestSingle(const SceneView* scene, const Ray* r) {
   return best;
 }
 
-float3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
+INLINE float3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
   uint stops[3] = {0, 0, 0};
   for (uint i = 0; i < scene->triangleCount; ++i)
     if (testOcclusion(scene, r, i, tMax, stops)) return (float3)(0.0f);

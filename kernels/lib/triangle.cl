@@ -16,10 +16,10 @@ typedef struct {
   float t, b1, b2;
 } Candidate;
 
-float boxInverse(float d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign(INFINITY, d); }
+INLINE float boxInverse(float d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign(INFINITY, d); }
 
 /// A ray with NaN or infinite parts meets nothing; without this test it would visit every box.
-int isFiniteRay(const Ray* r) {
+INLINE int isFiniteRay(const Ray* r) {
   return isFinite3((float3)(r->o[0], r->o[1], r->o[2])) && isFinite3((float3)(r->d[0], r->d[1], r->d[2]));
 }
 
@@ -40,7 +40,7 @@ Ray makeRay(float3 o, float3 d) {
 
 /// True if the ray meets the triangle at 0 < t <= tMax; `hit` then holds distance and barycentrics. The host turns a
 /// triangle without area into a point (det 0, t not a number): rounding could open it in the plane across the ray.
-int intersectTriangle(const Ray* r, __global const DeviceTriangle* triangle, float tMax, Candidate* hit) {
+INLINE int intersectTriangle(const Ray* r, __global const DeviceTriangle* triangle, float tMax, Candidate* hit) {
   const float az = triangle->v[0][r->kz] - r->o[r->kz];
   const float bz = triangle->v[1][r->kz] - r->o[r->kz];
   const float cz = triangle->v[2][r->kz] - r->o[r->kz];

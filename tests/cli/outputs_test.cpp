@@ -111,6 +111,32 @@ TEST(Outputs, StatisticsToAFullDeviceFail) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full")) << "the device was replaced";
 }
 
+TEST(Outputs, AMinusIsStandardOutputAndNothingElseGoesThere) {
+  const Folder folder;
+  const Outcome run =
+      runWhittle(smallRender({"--stats", "-", "--profile", "-o", "a.exr"}), {folder.path(), {}});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out)["rays"]["primary"], 32 * 24);
+  EXPECT_EQ(folder.names(), Names{"a.exr"});
+}
+
+TEST(Outputs, APictureThatNoDeviceHoldsIsRefusedBeforeAnythingIsAllocated) {
+  const std::string scene = std::string(WHITTLE_SCENES) + "/shadow.glb";
+  const std::vector<std::string> size{"--width", "65535", "--height", "65535"};
+  const auto with = [&](std::vector<std::string> args) {
+    args.insert(args.end(), size.begin(), size.end());
+    return args;
+  };
+  const Folder folder;
+  const Outcome render = runWhittle(with({"render", scene, "-o", "a.png"}), {folder.path(), {}});
+  EXPECT_EQ(render.status, 1);
+  EXPECT_NE(render.err.find("65535×65535"), std::string::npos) << render.err;
+  EXPECT_TRUE(folder.names().empty());
+  const Outcome info = runWhittle(with({"info", scene}));
+  EXPECT_EQ(info.status, 0) << info.err;
+  EXPECT_NE(info.out.find("65535×65535"), std::string::npos) << info.out;
+}
+
 TEST(Outputs, StatisticsGoToStandardOutputToo) {
   const Outcome run = runWhittle(smallRender({"--stats", "/dev/stdout", "--quiet"}));
   ASSERT_EQ(run.status, 0) << run.err;
@@ -131,7 +157,9 @@ TEST(Outputs, AnInterruptedRenderLeavesNothing) {
                     {folder.path(), {}});
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     process.signal(number);
-    EXPECT_EQ(process.finish().status, -number);
+    const Outcome run = process.finish();
+    EXPECT_EQ(run.status, -number);
+    EXPECT_EQ(run.err, "whittle: interrupted, nothing written\n");
     EXPECT_TRUE(folder.names().empty());
   }
 }

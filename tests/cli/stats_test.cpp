@@ -94,6 +94,14 @@ TEST(Stats, TimeLimitStopsEarlyAndSaysHowFarItCame) {
   EXPECT_EQ(s["rays"]["primary"], 32 * 24 * s["settings"]["raysPerPixel"].get<int>());
 }
 
+TEST(Stats, ATargetWithoutACountTakesAsManyRaysAsItNeeds) {
+  const auto json = statsOf({"--target-error", "0.05"});
+  const auto& last = json["error"].back();
+  EXPECT_GE(json["settings"]["raysPerPixel"], 2);
+  EXPECT_EQ(last["raysPerPixel"], json["settings"]["raysPerPixel"]);
+  EXPECT_LE(last["estimate"], 0.05);
+}
+
 TEST(Stats, TargetErrorStopsOnceTheEstimateIsBelow) {
   const auto loose = statsOf({"--rays-per-pixel", "4096", "--target-error", "0.02"});
   EXPECT_LT(loose["settings"]["raysPerPixel"], 4096);

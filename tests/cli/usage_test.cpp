@@ -92,6 +92,12 @@ std::vector<Mistake> mistakes() {
       {"CompareMissing", {"compare", "a.exr", "b.exr"}, {"a.exr"}},
       {"CompareOne", {"compare", "a.exr"}, {"B"}},
       {"ReferenceWithoutOutput", {"reference", s}, {"--output"}},
+      {"JpegTooWide",
+       {"render", s, "--width", "65501", "--height", "1", "-o", "a.JPG"},
+       {"--output", "a.JPG", "65500"}},
+      {"StrataWithoutACount",
+       {"render", s, "--sampler", "stratified", "--time-limit", "1", "-o", "a.png"},
+       {"--sampler", "--rays-per-pixel"}},
   };
 }
 

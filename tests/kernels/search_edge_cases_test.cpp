@@ -51,7 +51,7 @@ __kernel void spawn_points(uint n, SCENE_PARAMS, __global const uint* at, __glob
   const SceneView scene = SCENE_VIEW;
   RenderConstants constants;
   constants.bump = -1.0f;
-  const Surfel s = surfelAt(&scene, &constants, at[i], b[2 * i], b[2 * i + 1], vload3(i, d));
+  const Surfel s = surfelAt(&scene, &constants, at[i], (float3)(0.0f), vload3(i, d), 0.0f, b[2 * i], b[2 * i + 1]);
   vstore3(s.position + s.n_g * s.bump, i, out + 0);
   vstore3(s.position - s.n_g * s.bump, i, out + 3 * n);
   vstore3(s.n_g, i, out + 6 * n);

@@ -113,6 +113,7 @@ void judgePixels(Surroundings& surroundings, Agreement& a) {
     const Vec3 found = pixelOf(a.kernel.radiance, i), expected = pixelOf(a.reference.radiance, i);
     const bool same = sameHit(a, i);
     a.differentHits += !same;
+    if (same) a.rmseSameHit += glm::dot(found - expected, found - expected) / 3;
     if (same && reference::maxComponent(glm::abs(found - expected)) <= kOutlier * a.mean) {
       a.rmse += glm::dot(found - expected, found - expected) / 3;
       continue;
@@ -127,6 +128,8 @@ void judgePixels(Surroundings& surroundings, Agreement& a) {
                expected.x, expected.y, expected.z, around.low.x, around.low.y, around.low.z, around.high.x,
                around.high.y, around.high.z);
   }
+  a.rmseSameHit =
+      std::sqrt(a.rmseSameHit / static_cast<double>(std::max<std::size_t>(1, a.pixels - a.differentHits)));
   a.rmse = std::sqrt(a.rmse / static_cast<double>(std::max<std::size_t>(1, a.pixels - a.outliers)));
 }
 
@@ -159,10 +162,11 @@ void expectAgreement(const Agreement& a, const std::string& name, std::size_t ou
   const auto& rays = a.kernel.stats.rays;
   const RayCounts& expected = a.reference.rays;
   fmt::print(
-      "{}: mean {:.4g}, rmse/mean {:.2e}, other hits {}, outliers {}, impulse {} (reference {}, loose {}), "
+      "{}: mean {:.4g}, rmse/mean {:.2e}, with outliers {:.2e}, other hits {}, outliers {}, impulse {} "
+      "(reference {}, loose {}), "
       "shadow {} (reference {}, loose {})\n",
-      name, a.mean, a.rmse / a.mean, a.differentHits, a.outliers, rays.impulse, expected.impulse,
-      a.looseImpulse, rays.shadow, expected.shadow, a.looseShadow);
+      name, a.mean, a.rmse / a.mean, a.rmseSameHit / a.mean, a.differentHits, a.outliers, rays.impulse,
+      expected.impulse, a.looseImpulse, rays.shadow, expected.shadow, a.looseShadow);
   // A ray within rounding of a silhouette may take either side: one pixel of so small a picture.
   EXPECT_LE(a.differentHits, std::max<std::size_t>(1, a.pixels / 100000)) << name;
   EXPECT_LE(a.outliers, outliers) << name;

@@ -20,6 +20,7 @@ struct Agreement {
   std::size_t unexplained = 0;    ///< outliers where the reference does not jump
   double mean = 0;                ///< radiance of the reference, over pixels and channels
   double rmse = 0;                ///< over the pixels that are no outliers
+  double rmseSameHit = 0;         ///< over all pixels that hit the same
   std::uint64_t looseImpulse = 0, looseShadow = 0;  ///< rays that come or go when rays and lights are moved
 };
 

@@ -1,0 +1,40 @@
+// See camera_to_device.h.
+#include "render/camera_to_device.h"
+
+#include <cmath>
+
+namespace whittle {
+namespace {
+
+void copy3(float* out, const glm::vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+
+/// A vector as the sum of two float vectors. volatile: GCC 12 at -O3 otherwise takes the three differences
+/// for 0 (its vectoriser drops the rounding to float and back; gone with -fno-tree-slp-vectorize).
+void split3(float* high, float* low, const glm::dvec3& v) {
+  for (int i = 0; i < 3; ++i) {
+    const volatile float rounded = static_cast<float>(v[i]);
+    high[i] = rounded;
+    low[i] = static_cast<float>(v[i] - static_cast<double>(rounded));
+  }
+}
+
+}  // namespace
+
+device::DeviceCamera cameraToDevice(const Camera& camera, const Settings& s) {
+  device::DeviceCamera d{};
+  copy3(d.position, camera.position);
+  copy3(d.forward, camera.forward);
+  const double half = camera.orthographic ? camera.ymag : std::tan(0.5 * static_cast<double>(camera.yfov));
+  const double step = half / s.height;  // pixels are square
+  split3(d.stepX, d.stepXLow, step * glm::dvec3(camera.right));
+  split3(d.stepY, d.stepYLow, -step * glm::dvec3(camera.up));
+  d.orthographic = camera.orthographic;
+  d.seed = s.seed;
+  d.width = static_cast<std::uint32_t>(s.width);
+  d.height = static_cast<std::uint32_t>(s.height);
+  d.raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel);
+  d.sampler = static_cast<std::uint32_t>(s.sampler);
+  return d;
+}
+
+}  // namespace whittle

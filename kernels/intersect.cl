@@ -1,6 +1,6 @@
 // intersect: the nearest hit of each ray of a segment of the ray queue. One ray for each work item, or eight
 // neighbouring ones (PACKETS). Writes the hit queue; entry i of the hits belongs to ray first + i.
-#include "lib/traverse_packet.cl"
+#include "lib/traverse_wide.cl"
 
 __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const uint capacity,
                         __global const float* rays,  // [RAY_PLANES][capacity]
@@ -21,6 +21,16 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
   vstore8(as_float8(hit.triangle), 0, hits + HIT_TRIANGLE * stride + i);
   vstore8(hit.b1, 0, hits + HIT_B1 * stride + i);
   vstore8(hit.b2, 0, hits + HIT_B2 * stride + i);
+#elif HAS(WIDE)
+  const uint end = min((uint)get_global_id(0) * 8 + 8, count);
+  for (uint i = (uint)get_global_id(0) * 8; i < end; ++i) {
+    const Ray r = makeRay(loadPlanes3(rays, capacity, RAY_O, first + i), loadPlanes3(rays, capacity, RAY_D, first + i));
+    const Hit hit = nearestWide(&scene, &r);
+    hits[HIT_T * stride + i] = hit.t;
+    hits[HIT_TRIANGLE * stride + i] = as_float(hit.triangle);
+    hits[HIT_B1 * stride + i] = hit.b1;
+    hits[HIT_B2 * stride + i] = hit.b2;
+  }
 #else
   const uint i = get_global_id(0);
   if (i >= count) return;

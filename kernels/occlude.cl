@@ -1,7 +1,7 @@
 // occlude: what of the light reaches each shadow ray's origin. Reads the shadow queue (indices of candidates), adds
 // contribution · transmittance to the entry's radiance: an entry has one shadow ray for each light round, so no two
 // work items add to the same place.
-#include "lib/traverse_packet.cl"
+#include "lib/traverse_wide.cl"
 
 __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity,
                       __global const uint* shadowQueue,   // [count] entries with a shadow ray, in order
@@ -32,6 +32,17 @@ __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity,
     const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry[k]);
     const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry[k]);
     storePlanes3(entryRadiance, capacity, 0, entry[k], before + contribution * transmittanceFromStops(own));
+  }
+#elif HAS(WIDE)
+  const uint end = min((uint)get_global_id(0) * 8 + 8, count);
+  for (uint i = (uint)get_global_id(0) * 8; i < end; ++i) {
+    const uint entry = shadowQueue[i];
+    const Ray r = makeRay(loadPlanes3(shadows, capacity, SHADOW_O, entry), loadPlanes3(shadows, capacity, SHADOW_D, entry));
+    const float3 transmittance = transmittanceWide(&scene, &r, shadows[(size_t)SHADOW_LENGTH * capacity + entry]);
+    if (!anyPositive(transmittance)) continue;
+    const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
+    const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry);
+    storePlanes3(entryRadiance, capacity, 0, entry, before + contribution * transmittance);
   }
 #else
   const uint i = get_global_id(0);

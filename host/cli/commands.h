@@ -12,5 +12,6 @@ void addReference(CLI::App& app, int& status);
 void addInfo(CLI::App& app, int& status);
 void addDevices(CLI::App& app, int& status);
 void addCompare(CLI::App& app, int& status);
+void addBench(CLI::App& app, int& status);
 
 }  // namespace whittle::cli

@@ -169,7 +169,7 @@ std::vector<device::DeviceLight> lightsToDevice(const Scene& scene) {
 }
 
 std::string groupOf(const std::string& name) {
-  if (name == "nodes") return "tree";
+  if (name == "nodes" || name == "wideNodes" || name == "blocks") return "tree";
   if (name == "textures" || name == "texels" || name == "linearFromSrgb" || name == "background")
     return "textures";
   return "triangles";
@@ -187,6 +187,13 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tre
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
   if (features.has(Feature::TREE)) d.nodes = compute.upload("nodes", withSentinels(tree));
+  if (features.has(Feature::WIDE)) {
+    std::vector<glm::uvec3> triangles;
+    for (const auto& t : scene.triangles) triangles.emplace_back(t.v0, t.v1, t.v2);
+    const WideTree wide = buildWideTree(tree, scene.positions, triangles);
+    d.wideNodes = compute.upload("wideNodes", wide.nodes);
+    d.blocks = compute.upload("blocks", wide.blocks);
+  }
   d.triangles = compute.upload("triangles", leafTriangles(scene, tree.order));
   std::vector<std::uint32_t> corners;
   corners.reserve(scene.triangles.size() * 3 + 3);

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bvh/tri_tree.h"
+#include "bvh/wide_tree.h"
 #include "cl/program.h"
 #include "render/scene_features.h"
 #include "render/stats.h"
@@ -15,13 +15,13 @@ namespace whittle {
 struct DeviceScene {
   // In the order of SCENE_PARAMS (kernels/lib/scene.cl).
   Buffer nodes, triangles, corners, normals, tangents, uv0, uv1, colors, materials, textures, texels,
-      linearFromSrgb, lights, background;
+      linearFromSrgb, lights, background, wideNodes, blocks;
   std::uint32_t triangleCount = 0;  ///< not counting the degenerate sentinel at the end
   std::uint32_t lightCount = 0;
 
   std::vector<const Buffer*> buffers() const {
-    return {&nodes,  &triangles, &corners,  &normals, &tangents,       &uv0,    &uv1,
-            &colors, &materials, &textures, &texels,  &linearFromSrgb, &lights, &background};
+    return {&nodes,     &triangles, &corners, &normals,        &tangents, &uv0,        &uv1,       &colors,
+            &materials, &textures,  &texels,  &linearFromSrgb, &lights,   &background, &wideNodes, &blocks};
   }
   void report(std::vector<BufferStats>& out) const;
 };

@@ -39,6 +39,12 @@ class SceneFeatures {
   std::uint64_t bits() const { return bits_; }
   const std::vector<FeatureLine>& lines() const { return lines_; }
 
+  /// Exactly these; no lines.
+  static SceneFeatures ofBits(std::uint64_t bits) {
+    SceneFeatures features;
+    features.bits_ = bits;
+    return features;
+  }
   /// Derives the features. settings.keepAllFeatures switches everything on that does not contradict the
   /// settings.
   static SceneFeatures analyse(const Scene& scene, const Settings& settings, const DeviceTraits& traits);

@@ -46,6 +46,13 @@ INLINE float differenceOfProducts(float a, float b, float c, float d) {
   return difference + error;
 }
 
+INLINE float8 differenceOfProducts8(float8 a, float8 b, float8 c, float8 d) {
+  const float8 cd = c * d;
+  const float8 difference = fma(a, b, -cd);
+  const float8 error = fma(-c, d, cd);
+  return difference + error;
+}
+
 /// What a + b lost when it was rounded to `sum`; exact (Knuth's two-sum).
 INLINE float sumError(float a, float b, float sum) {
   const float part = sum - a;

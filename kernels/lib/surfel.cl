@@ -104,7 +104,7 @@ INLINE void loadCorners(const SceneView* scene, uint primitive, uint* corner) {
 #endif
 }
 
-/// A point of a triangle with all that lookups there need.
+/// A point of a triangle with all that lookups there need; `b` for what vertices carry, `uv` for textures.
 typedef struct {
   __global const DeviceTriangle* triangle;
   __global const DeviceMaterial* material;
@@ -113,13 +113,13 @@ typedef struct {
   Uv uv;
 } TrianglePoint;
 
-INLINE TrianglePoint trianglePoint(const SceneView* scene, uint triangleIndex, Barycentrics b) {
+INLINE TrianglePoint trianglePoint(const SceneView* scene, uint triangleIndex, Barycentrics b, const Barycentrics* forTextures) {
   TrianglePoint p;
   p.triangle = scene->triangles + triangleIndex;
   p.material = scene->materials + p.triangle->material;
   loadCorners(scene, p.triangle->primitive, p.corner);
   p.b = b;
-  p.uv = uvAt(scene, p.corner, &b);
+  p.uv = uvAt(scene, p.corner, forTextures);
   return p;
 }
 
@@ -144,7 +144,8 @@ INLINE float4 baseColorAt(const SceneView* scene, const TrianglePoint* p) {
 /// How much of the light a surface lets straight through to a shadow ray; README "Direct light".
 /// For a masked triangle: 1 below the cutoff, else 0 (the hit counts).
 INLINE float3 shadowTransmittance(const SceneView* scene, uint triangleIndex, float b1, float b2, float3 d) {
-  const TrianglePoint p = trianglePoint(scene, triangleIndex, barycentrics(b1, b2));
+  const Barycentrics b = barycentrics(b1, b2);
+  const TrianglePoint p = trianglePoint(scene, triangleIndex, b, &b);
   __global const DeviceMaterial* m = p.material;
   const float4 c = baseColorAt(scene, &p);
   float alpha = 1.0f;
@@ -179,7 +180,8 @@ INLINE float3 shadowTransmittance(const SceneView* scene, uint triangleIndex, fl
 
 /// 1 if a masked triangle is really there at these barycentrics.
 INLINE int passesAlphaMask(const SceneView* scene, uint triangleIndex, float b1, float b2) {
-  const TrianglePoint p = trianglePoint(scene, triangleIndex, barycentrics(b1, b2));
+  const Barycentrics b = barycentrics(b1, b2);
+  const TrianglePoint p = trianglePoint(scene, triangleIndex, b, &b);
   return baseColorAt(scene, &p).w >= p.material->alphaCutoff;
 }
 
@@ -246,12 +248,15 @@ INLINE Surfel surfelAt(const SceneView* scene, const RenderConstants* constants,
   Surfel s;
   __global const DeviceTriangle* triangle = scene->triangles + triangleIndex;
   const float3 p0 = load3(triangle->v[0]), p1 = load3(triangle->v[1]), p2 = load3(triangle->v[2]);
-  Barycentrics b = barycentrics(b1, b2);
+  const Barycentrics b = barycentrics(b1, b2);
 #if HAS(TEXTURES)
+  // For texture coordinates alone: what no texture shows keeps its bits whether this is compiled or not.
   const float3 corners[3] = {p0, p1, p2};
-  b = refinedBarycentrics(corners, o, d, t, b);
+  const Barycentrics forTextures = refinedBarycentrics(corners, o, d, t, b);
+#else
+  const Barycentrics forTextures = b;
 #endif
-  const TrianglePoint p = trianglePoint(scene, triangleIndex, b);
+  const TrianglePoint p = trianglePoint(scene, triangleIndex, b, &forTextures);
   __global const DeviceMaterial* m = p.material;
   s.position = b.b0 * p0 + b.b1 * p1 + b.b2 * p2;
 #if HAS(FIXED_BUMP)

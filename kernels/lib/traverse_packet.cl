@@ -90,13 +90,6 @@ int8 childEntries(const Packet* p, __global const Node* node, int c, float8 tMax
   return enter <= leave * FAR_WIDENING;
 }
 
-float8 differenceOfProducts8(float8 a, float8 b, float8 c, float8 d) {
-  const float8 cd = c * d;
-  const float8 difference = fma(a, b, -cd);
-  const float8 error = fma(-c, d, cd);
-  return difference + error;
-}
-
 /// Lanes with NaN or infinite parts sleep.
 float8 wakeFinite(const Packet* p, float8 tMax) {
   int8 finite = isfinite(p->o[0]) & isfinite(p->o[1]) & isfinite(p->o[2]);

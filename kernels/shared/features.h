@@ -48,7 +48,8 @@
   X(AOVS, 40, "auxiliary outputs")                                \
   X(IMPULSES, 41, "impulse queue")                                \
   X(LIGHTS, 42, "direct light")                                   \
-  X(NEAREST_FILTER, 43, "nearest texture filter")
+  X(NEAREST_FILTER, 43, "nearest texture filter")                 \
+  X(WIDE, 44, "eight-wide tree")
 
 #ifdef __OPENCL_VERSION__
 // Preprocessor arithmetic is 64 bits wide; the macro above cannot define macros, so the bits stand here again
@@ -97,6 +98,7 @@
 #define BIT_IMPULSES 41
 #define BIT_LIGHTS 42
 #define BIT_NEAREST_FILTER 43
+#define BIT_WIDE 44
 #ifndef SCENE_FEATURES
 #define SCENE_FEATURES 0x7fffffffffffffff
 #endif
@@ -109,6 +111,7 @@
 #endif
 
 #define LONG_RUN 256  // a sample with more entries than this in one queue is cut into slices of this length
+#define WIDE_STACK 192     // waiting entries of a search through the eight-wide tree; deeper trees are searched two-wide
 #define MAX_TREE_DEPTH 60  // traversal stack; the builder keeps to it
 
 #endif

@@ -1,0 +1,56 @@
+// The renderer's own intersect and occlude kernels on rays of one's choice, timed.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "bench/ray_sets.h"
+#include "bvh/tri_tree.h"
+#include "render/device_scene.h"
+#include "render/stage_runner.h"
+
+namespace whittle {
+
+/// How the kernels search; the names stand in reports.
+struct QueryKernel {
+  const char* name;
+  std::uint64_t features;  ///< bits of kernels/shared/features.h
+  int raysEach;            ///< rays of one work item
+};
+
+/// Every kernel there is, the renderer's choice for coherent rays first.
+const std::vector<QueryKernel>& queryKernels();
+/// The kernel that the renderer would use on a CPU for rays of this kind.
+const QueryKernel& kernelFor(const std::string& kind);
+
+/// One kernel, compiled, with its scene on the device. Opaque triangles only: neither textures nor masks take
+/// part.
+class QueryRunner {
+ public:
+  /// Throws ClError.
+  QueryRunner(Compute& compute, const Scene& scene, const TriTree& tree, const QueryKernel& kernel,
+              const std::optional<std::filesystem::path>& kernelFolder = {});
+
+  /// Uploads the rays; the queries below work on them.
+  void load(const RaySet& rays);
+  /// Seconds that one query of all rays takes, from the first launch to the last result on the device.
+  double nearest();
+  double any();
+  /// Results of the last nearest() and any(). Shadow rays end before their length.
+  std::vector<QueryHit> hits();
+  std::vector<bool> blocked();
+
+  const QueryKernel& kernel() const { return kernel_; }
+  std::size_t sceneBytes() const;
+
+ private:
+  Compute& compute_;
+  const TriTree& tree_;
+  QueryKernel kernel_;
+  DeviceScene scene_;
+  std::optional<StageRunner> stages_;
+  std::uint32_t count_ = 0, capacity_ = 0;
+  Buffer rays_, hits_, shadows_, queue_, radiance_;
+};
+
+}  // namespace whittle

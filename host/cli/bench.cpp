@@ -1,0 +1,118 @@
+// whittle bench: rays per second by kind of ray and kernel, beside Embree's.
+#include "bench/bench.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bench/embree_yardstick.h"
+#include "cl/device.h"
+#include "cli/commands.h"
+#include "cli/option_kinds.h"
+#include "cli/options.h"
+#include "cli/progress_bar.h"
+#include "cli/text.h"
+
+namespace whittle::cli {
+namespace {
+
+struct BenchCommand {
+  SceneOptions scene;
+  BenchOptions bench;
+  std::filesystem::path kernelFolder;
+  bool json = false;
+};
+
+void printJson(const BenchCommand& o, const BenchResult& r) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const BenchRow& row : r.rows) {
+    nlohmann::ordered_json j{{"rays", row.rays},
+                             {"query", row.query},
+                             {"count", row.count},
+                             {"kernel", row.kernel},
+                             {"mraysPerSecond", row.mraysPerSecond}};
+    if (haveEmbree()) {
+      j["embreeMode"] = row.embreeMode;
+      j["embreeMraysPerSecond"] = row.embreeMraysPerSecond;
+      j["ratio"] = row.ratio;
+      j["disagree"] = row.disagree;
+    }
+    rows.push_back(std::move(j));
+  }
+  nlohmann::ordered_json build{{"seconds", r.buildSeconds}, {"bytesPerTriangle", r.bytesPerTriangle}};
+  if (haveEmbree()) build["embreeSeconds"] = r.embreeSeconds;
+  const nlohmann::ordered_json json{{"scene", o.scene.file.string()},
+                                    {"triangles", r.triangles},
+                                    {"threads", r.threads},
+                                    {"device", r.device},
+                                    {"build", build},
+                                    {"rows", rows}};
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+void printTable(const BenchResult& r) {
+  fmt::print("{} triangles, {}, {}\n", formatInteger(r.triangles),
+             formatSome(static_cast<std::uint64_t>(r.threads), "thread", "threads"), r.device);
+  fmt::print("tree: {:.3f} s, {:.0f} bytes for each triangle", r.buildSeconds, r.bytesPerTriangle);
+  if (haveEmbree()) fmt::print("; Embree: {:.3f} s", r.embreeSeconds);
+  fmt::print("\n\n{:<11} {:<8} {:<9} {:>10} {:>9}", "rays", "query", "kernel", "count", "Mrays/s");
+  if (haveEmbree()) fmt::print(" {:>9} {:<19} {:>6} {:>9}", "Embree's", "best mode", "ratio", "disagree");
+  fmt::print("\n");
+  for (const BenchRow& row : r.rows) {
+    fmt::print("{:<11} {:<8} {:<9} {:>10} {:>9.2f}", row.rays, row.query, row.kernel,
+               formatInteger(row.count), row.mraysPerSecond);
+    if (haveEmbree())
+      fmt::print(" {:>9.2f} {:<19} {:>6.2f} {:>9}", row.embreeMraysPerSecond, row.embreeMode, row.ratio,
+                 formatInteger(row.disagree));
+    fmt::print("\n");
+  }
+  if (!haveEmbree()) fmt::print("\nThis build has no Embree to compare with.\n");
+}
+
+void runBenchCommand(BenchCommand& o) {
+  Notices notices;
+  if (!o.kernelFolder.empty()) o.bench.kernelFolder = o.kernelFolder;
+  const Scene scene = loadScene(o.scene, notices);
+  BenchResult result;
+  {
+    ProgressBar bar(o.scene.quiet);
+    o.bench.phase = [&](const std::string& text) { bar.phase(text); };
+    result = runBench(scene, o.bench);
+  }
+  if (o.json)
+    printJson(o, result);
+  else
+    printTable(result);
+}
+
+}  // namespace
+
+void addBench(CLI::App& app, int& status) {
+  auto o = std::make_shared<BenchCommand>();
+  CLI::App* c = app.add_subcommand("bench", "rays per second of the searches, beside Embree's");
+  addSceneOptions(*c, o->scene);
+  c->option_defaults()->group("Output");
+  c->add_flag("--json", o->json, "as JSON");
+  c->add_flag("--quiet", o->scene.quiet, "no progress and no notes");
+  c->option_defaults()->group("Measurement");
+  addWhole(*c, "--rays", o->bench.rays, 1, 1 << 26, "N", "of each kind, about");
+  addWhole(*c, "--runs", o->bench.runs, 1, 1000, "N", "of each contender, in turn; the median counts");
+  c->add_flag("--all-kernels", o->bench.allKernels, "every kernel, not only the one the renderer would use");
+  c->add_flag("--robust-only", o->bench.robustOnly, "only Embree's robust modes compete");
+  c->option_defaults()->group("Device");
+  addText(*c, "--device", [o](const std::string& v) { o->bench.device = v; },
+          {"SELECTOR", "index from `whittle devices`, part of a name, or cpu|gpu",
+           "the first CPU, else the first"});
+  addWhole(*c, "--threads", o->bench.threads, 0, 4096, "N",
+           "threads of a CPU device, of the tree builder and of Embree", "0: all");
+  addFile(*c, "--kernels", o->kernelFolder, "FOLDER",
+          "read kernels from here, not from the program (for developers)");
+  c->footer("Example: whittle bench scene.glb --all-kernels");
+  c->callback([o, &status] {
+    runBenchCommand(*o);
+    status = 0;
+  });
+}
+
+}  // namespace whittle::cli

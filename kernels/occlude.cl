@@ -12,26 +12,48 @@ __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity,
   const uint i = (uint)get_global_id(0) * 8;
   if (i >= count) return;
   const uint active = count - i < 8 ? count - i : 8;
-  float part[7][8];
-  uint entry[8];
-  for (uint k = 0; k < 8; ++k) {
-    entry[k] = shadowQueue[i + (k < active ? k : 0)];
-    for (int plane = 0; plane < 7; ++plane) part[plane][k] = shadows[(size_t)plane * capacity + entry[k]];
-  }
-  const Packet p = makePacket(vload8(0, part[0]), vload8(0, part[1]), vload8(0, part[2]), vload8(0, part[3]),
-                              vload8(0, part[4]), vload8(0, part[5]));
+  const uint start = shadowQueue[i];
   const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-  const float8 length = select((float8)(-1.0f), vload8(0, part[SHADOW_LENGTH]), lane < (int)active);
+  float8 plane[7];
+  // The queue is in order, so eight entries that span eight are neighbours: whole planes are read, not lanes one by one.
+  const int neighbours = active == 8 && shadowQueue[i + 7] == start + 7;
+  if (neighbours) {
+    for (int k = 0; k < 7; ++k) plane[k] = vload8(0, shadows + (size_t)k * capacity + start);
+  } else {
+    float part[7][8];
+    for (uint k = 0; k < 8; ++k) {
+      const uint entry = shadowQueue[i + (k < active ? k : 0)];
+      for (int n = 0; n < 7; ++n) part[n][k] = shadows[(size_t)n * capacity + entry];
+    }
+    for (int k = 0; k < 7; ++k) plane[k] = vload8(0, part[k]);
+  }
+  const Packet p = makePacket(plane[0], plane[1], plane[2], plane[3], plane[4], plane[5]);
+  const float8 length = select((float8)(-1.0f), plane[SHADOW_LENGTH], lane < (int)active);
   uint stops[24];
+#if HAS(FILTERED_SHADOWS) || HAS(ALPHA_MASK)
   for (int k = 0; k < 24; ++k) stops[k] = 0;
-  int blocked[8];
-  vstore8(occludedPacket(&scene, &p, length, stops), 0, blocked);
+#endif
+  const int8 blocked = occludedPacket(&scene, &p, length, stops);
+#if !HAS(FILTERED_SHADOWS)
+  if (neighbours) {
+    for (int c = 0; c < 3; ++c) {
+      __global float* radiance = entryRadiance + (size_t)c * capacity + start;
+      const float8 before = vload8(0, radiance);
+      const float8 contribution = vload8(0, shadows + (size_t)(SHADOW_CONTRIBUTION + c) * capacity + start);
+      vstore8(select(before + contribution, before, blocked), 0, radiance);
+    }
+    return;
+  }
+#endif
+  int dark[8];
+  vstore8(blocked, 0, dark);
   for (uint k = 0; k < active; ++k) {
-    if (blocked[k]) continue;
+    if (dark[k]) continue;
     const uint own[3] = {stops[k], stops[8 + k], stops[16 + k]};
-    const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry[k]);
-    const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry[k]);
-    storePlanes3(entryRadiance, capacity, 0, entry[k], before + contribution * transmittanceFromStops(own));
+    const uint entry = shadowQueue[i + k];
+    const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
+    const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry);
+    storePlanes3(entryRadiance, capacity, 0, entry, before + contribution * transmittanceFromStops(own));
   }
 #elif HAS(WIDE)
   const uint end = min((uint)get_global_id(0) * 8 + 8, count);

@@ -38,8 +38,10 @@ struct WideTree {
   int stack = 0;  ///< entries that a search may have waiting: the most children left over on any way down
 };
 
-/// Opens, from each node of `tree` down, the child of the largest box until there are eight (Wald, Benthin,
-/// Boulos 2008); whatever holds eight triangles or fewer becomes one block.
+/// Collapses `tree` so that the expected cost of a search (surface area heuristic) is least: which subtrees
+/// become nodes of their own, which are handed up to their parent's free lanes, which become blocks (Ylitie,
+/// Karras, Laine 2017). Opening the child of the largest box until there are eight instead leaves half of the
+/// lanes empty.
 WideTree buildWideTree(const TriTree& tree, std::span<const glm::vec3> positions,
                        std::span<const glm::uvec3> triangles);
 

@@ -128,6 +128,17 @@ std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene,
   return out;
 }
 
+/// The same for the blocks of the eight-wide tree: a triangle without area becomes a point.
+void flattenTriangles(std::vector<TriangleBlock>& blocks) {
+  for (TriangleBlock& b : blocks)
+    for (std::uint32_t lane = 0; lane < b.count; ++lane) {
+      const auto corner = [&](int k) { return glm::vec3(b.v[k][0][lane], b.v[k][1][lane], b.v[k][2][lane]); };
+      if (hasArea(corner(0), corner(1), corner(2))) continue;
+      for (int k = 1; k < 3; ++k)
+        for (int a = 0; a < 3; ++a) b.v[k][a][lane] = b.v[0][a][lane];
+    }
+}
+
 std::vector<TreeNode> withSentinels(const TriTree& tree) {
   std::vector<TreeNode> nodes = tree.nodes;
   const auto sentinel = ~static_cast<std::int32_t>(tree.order.size() << 4);
@@ -190,7 +201,8 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tre
   if (features.has(Feature::WIDE)) {
     std::vector<glm::uvec3> triangles;
     for (const auto& t : scene.triangles) triangles.emplace_back(t.v0, t.v1, t.v2);
-    const WideTree wide = buildWideTree(tree, scene.positions, triangles);
+    WideTree wide = buildWideTree(tree, scene.positions, triangles);
+    flattenTriangles(wide.blocks);
     d.wideNodes = compute.upload("wideNodes", wide.nodes);
     d.blocks = compute.upload("blocks", wide.blocks);
   }

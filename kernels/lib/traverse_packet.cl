@@ -8,11 +8,13 @@ typedef struct {
   float8 o[3];
   float8 d[3];
   float8 inverse[3];
+  float8 nearBias[3];  // -o/d for near and far planes, wider by more than they are off
+  float8 farBias[3];
   float8 shear[3];    // sx, sy, sz of each lane's own axes
   int8 kz;            // largest axis of the direction
   int axes[3];        // 1: some lane has this axis
-  int nearIsHigh[3];  // sign of the direction where all lanes agree
-  int oneSign;        // 1: they agree on all three axes
+  int nearPlane[3];   // 0: lo is the near plane, 6: hi; where all lanes agree
+  int regular;        // 1: they agree on all three axes, and no direction is parallel to one
 } Packet;
 
 typedef struct {
@@ -21,31 +23,51 @@ typedef struct {
   float8 b1, b2;
 } PacketHit;
 
-/// True if any lane's mask (all bits set or none) is set.
+/// True if any lane's mask (all bits set or none) is set. Where the compiler has a reduction of its own it becomes one
+/// instruction.
+#if defined(__clang__) && defined(__has_builtin)
+#if __has_builtin(__builtin_reduce_or)
+#define HAS_REDUCTIONS 1
+#endif
+#endif
 INLINE int anyLane(int8 mask) {
+#ifdef HAS_REDUCTIONS
+  return __builtin_reduce_or(mask) < 0;
+#else
   const int4 a = mask.lo | mask.hi;
   const int2 b = a.lo | a.hi;
   return (b.x | b.y) != 0;
+#endif
 }
 
 INLINE int allLanes(int8 mask) {
+#ifdef HAS_REDUCTIONS
+  return __builtin_reduce_and(mask) < 0;
+#else
   const int4 a = mask.lo & mask.hi;
   const int2 b = a.lo & a.hi;
   return (b.x & b.y) != 0;
+#endif
 }
 
-float8 boxInverse8(float8 d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign((float8)(INFINITY), d); }
+INLINE float8 boxInverse8(float8 d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign((float8)(INFINITY), d); }
 
-Packet makePacket(float8 ox, float8 oy, float8 oz, float8 dx, float8 dy, float8 dz) {
+INLINE Packet makePacket(float8 ox, float8 oy, float8 oz, float8 dx, float8 dy, float8 dz) {
   Packet p;
   p.o[0] = ox, p.o[1] = oy, p.o[2] = oz;
   p.d[0] = dx, p.d[1] = dy, p.d[2] = dz;
-  p.oneSign = 1;
+  p.regular = 1;
   for (int a = 0; a < 3; ++a) {
     p.inverse[a] = boxInverse8(p.d[a]);
     const int8 negative = !(p.inverse[a] >= 0.0f);
-    p.nearIsHigh[a] = allLanes(negative);
-    if (!p.nearIsHigh[a] && anyLane(negative)) p.oneSign = 0;
+    const int down = allLanes(negative);
+    p.nearPlane[a] = down ? 6 : 0;
+    if (!down && anyLane(negative)) p.regular = 0;
+    if (anyLane(!(fabs(p.inverse[a]) < INFINITY))) p.regular = 0;
+    const float8 bias = -p.o[a] * p.inverse[a];
+    const float8 margin = fabs(bias) * BIAS_MARGIN;
+    p.nearBias[a] = bias - margin;
+    p.farBias[a] = bias + margin;
   }
   const float8 ax = fabs(dx), ay = fabs(dy), az = fabs(dz);
   const int8 xFirst = (ax > ay) & (ax > az);
@@ -64,17 +86,20 @@ Packet makePacket(float8 ox, float8 oy, float8 oz, float8 dx, float8 dy, float8 
 }
 
 /// Mask of the lanes that enter child c before tMax; entry receives their distances.
-int8 childEntries(const Packet* p, __global const Node* node, int c, float8 tMax, float8* entry) {
+INLINE int8 childEntries(const Packet* p, __global const Node* node, int c, float8 tMax, float8* entry) {
   float8 enter = (float8)(0.0f), leave = tMax;
-  if (p->oneSign) {
-    for (int a = 0; a < 3; ++a) {
-      const float nearPlane = p->nearIsHigh[a] ? node->hi[c][a] : node->lo[c][a];
-      const float farPlane = p->nearIsHigh[a] ? node->lo[c][a] : node->hi[c][a];
-      const float8 near = (nearPlane - p->o[a]) * p->inverse[a];
-      const float8 far = (farPlane - p->o[a]) * p->inverse[a];
-      enter = near > enter ? near : enter;
-      leave = far < leave ? far : leave;
-    }
+  if (p->regular) {
+    __global const float* box = node->lo[c];  // hi[c] lies 6 floats on
+    const float8 nearX = fma((float8)(box[p->nearPlane[0]]), p->inverse[0], p->nearBias[0]);
+    const float8 nearY = fma((float8)(box[p->nearPlane[1] + 1]), p->inverse[1], p->nearBias[1]);
+    const float8 nearZ = fma((float8)(box[p->nearPlane[2] + 2]), p->inverse[2], p->nearBias[2]);
+    const float8 farX = fma((float8)(box[6 - p->nearPlane[0]]), p->inverse[0], p->farBias[0]);
+    const float8 farY = fma((float8)(box[6 - p->nearPlane[1] + 1]), p->inverse[1], p->farBias[1]);
+    const float8 farZ = fma((float8)(box[6 - p->nearPlane[2] + 2]), p->inverse[2], p->farBias[2]);
+    const float8 nearXY = nearX > nearY ? nearX : nearY, nearZ0 = nearZ > enter ? nearZ : enter;
+    const float8 farXY = farX < farY ? farX : farY, farZ1 = farZ < leave ? farZ : leave;
+    enter = nearXY > nearZ0 ? nearXY : nearZ0;
+    leave = farXY < farZ1 ? farXY : farZ1;
   } else {
     for (int a = 0; a < 3; ++a) {
       const float8 lo = (node->lo[c][a] - p->o[a]) * p->inverse[a];
@@ -91,14 +116,14 @@ int8 childEntries(const Packet* p, __global const Node* node, int c, float8 tMax
 }
 
 /// Lanes with NaN or infinite parts sleep.
-float8 wakeFinite(const Packet* p, float8 tMax) {
+INLINE float8 wakeFinite(const Packet* p, float8 tMax) {
   int8 finite = isfinite(p->o[0]) & isfinite(p->o[1]) & isfinite(p->o[2]);
   finite &= isfinite(p->d[0]) & isfinite(p->d[1]) & isfinite(p->d[2]);
   return select((float8)(-1.0f), tMax, finite);
 }
 
 /// Lanes whose largest axis is kz and that meet the triangle at 0 < t <= tMax.
-int8 intersectAxis(const Packet* p, __global const DeviceTriangle* triangle, int kz, float8 tMax, float8* t, float8* b1,
+INLINE int8 intersectAxis(const Packet* p, __global const DeviceTriangle* triangle, int kz, float8 tMax, float8* t, float8* b1,
                    float8* b2) {
   const int kx = kz == 2 ? 0 : kz + 1;
   const int ky = kx == 2 ? 0 : kx + 1;
@@ -127,8 +152,9 @@ int8 intersectAxis(const Packet* p, __global const DeviceTriangle* triangle, int
 }
 
 /// All lanes against one triangle; merges the axes that occur in the packet.
-int8 intersectPacket(const Packet* p, __global const DeviceTriangle* triangle, float8 tMax, float8* t, float8* b1, float8* b2) {
+INLINE int8 intersectPacket(const Packet* p, __global const DeviceTriangle* triangle, float8 tMax, float8* t, float8* b1, float8* b2) {
   int8 met = (int8)(0);
+#pragma unroll
   for (int kz = 0; kz < 3; ++kz) {
     if (!p->axes[kz]) continue;
     float8 tk, b1k, b2k;
@@ -168,7 +194,7 @@ INLINE void testNearestPacket(const SceneView* scene, const Packet* p, uint inde
 }
 
 /// Shadow lanes against one triangle; returns the lanes whose light is now blocked. stops: [3][8], see testOcclusion.
-int8 testOcclusionPacket(const SceneView* scene, const Packet* p, uint index, float8 tMax, uint* stops) {
+INLINE int8 testOcclusionPacket(const SceneView* scene, const Packet* p, uint index, float8 tMax, uint* stops) {
   __global const DeviceTriangle* triangle = scene->triangles + index;
   float8 t = (float8)(0.0f), b1 = (float8)(0.0f), b2 = (float8)(0.0f);
   int8 met = intersectPacket(p, triangle, tMax, &t, &b1, &b2);

@@ -8,6 +8,10 @@
 // corner sheared onto the ray by 12 on each of two axes, which makes 30 · 2^-24, and t itself by 15: 32 covers either.
 #define FAR_WIDENING 1.0000019f
 
+// Box distances as plane · (1/d) - o/d in one fma are off by what rounding took from o/d, besides their own rounding: half a
+// unit in its last place, and as much again where the margin is added. Four units are taken off near and added to far.
+#define BIAS_MARGIN 4.7683716e-7f
+
 typedef struct {
   float t;
   uint triangle;   // NO_HIT: nothing met

@@ -24,15 +24,49 @@ INLINE uint laneBits(int8 mask) {
 
 INLINE uint lowestBit(uint bits) { return popcount((bits & (0u - bits)) - 1u); }
 
-/// The eight children of a node: bits of those that the ray enters before tMax, and where.
-INLINE uint wideEntries(const Ray* r, __global const float* node, float tMax, float8* entry) {
-  float8 enter = (float8)(0.0f), leave = (float8)(tMax);
+/// What a ray needs for box tests beside itself.
+typedef struct {
+  float nearBias[3], farBias[3];  // as in Packet
+  int nearPlane[3];               // floats from a node to its planes: 8 · axis, and 24 for hi
+  int regular;                    // 1: no part of the direction is next to 0
+} BoxRay;
+
+INLINE BoxRay makeBoxRay(const Ray* r) {
+  BoxRay b;
+  b.regular = 1;
   for (int a = 0; a < 3; ++a) {
-    const int down = !(r->inverse[a] >= 0.0f);
-    const float8 near = (vload8(0, node + (a + 3 * down) * 8) - r->o[a]) * r->inverse[a];
-    const float8 far = (vload8(0, node + (a + 3 * (1 - down)) * 8) - r->o[a]) * r->inverse[a];
-    enter = near > enter ? near : enter;
-    leave = far < leave ? far : leave;
+    const float bias = -r->o[a] * r->inverse[a], margin = fabs(bias) * BIAS_MARGIN;
+    b.nearBias[a] = bias - margin;
+    b.farBias[a] = bias + margin;
+    b.nearPlane[a] = a * 8 + (r->inverse[a] >= 0.0f ? 0 : 24);
+    if (!(fabs(r->inverse[a]) < INFINITY)) b.regular = 0;
+  }
+  return b;
+}
+
+/// The eight children of a node: bits of those that the ray enters before tMax, and where.
+INLINE uint wideEntries(const Ray* r, const BoxRay* b, __global const float* node, float tMax, float8* entry) {
+  float8 enter = (float8)(0.0f), leave = (float8)(tMax);
+  if (b->regular) {
+    const int x = b->nearPlane[0], y = b->nearPlane[1], z = b->nearPlane[2];
+    const float8 nearX = fma(vload8(0, node + x), (float8)(r->inverse[0]), (float8)(b->nearBias[0]));
+    const float8 nearY = fma(vload8(0, node + y), (float8)(r->inverse[1]), (float8)(b->nearBias[1]));
+    const float8 nearZ = fma(vload8(0, node + z), (float8)(r->inverse[2]), (float8)(b->nearBias[2]));
+    const float8 farX = fma(vload8(0, node + 24 - x), (float8)(r->inverse[0]), (float8)(b->farBias[0]));
+    const float8 farY = fma(vload8(0, node + 40 - y), (float8)(r->inverse[1]), (float8)(b->farBias[1]));
+    const float8 farZ = fma(vload8(0, node + 56 - z), (float8)(r->inverse[2]), (float8)(b->farBias[2]));
+    const float8 nearXY = nearX > nearY ? nearX : nearY, nearZ0 = nearZ > enter ? nearZ : enter;
+    const float8 farXY = farX < farY ? farX : farY, farZ1 = farZ < leave ? farZ : leave;
+    enter = nearXY > nearZ0 ? nearXY : nearZ0;
+    leave = farXY < farZ1 ? farXY : farZ1;
+  } else {
+    for (int a = 0; a < 3; ++a) {
+      const int down = !(r->inverse[a] >= 0.0f);
+      const float8 near = (vload8(0, node + (a + 3 * down) * 8) - r->o[a]) * r->inverse[a];
+      const float8 far = (vload8(0, node + (a + 3 * (1 - down)) * 8) - r->o[a]) * r->inverse[a];
+      enter = near > enter ? near : enter;
+      leave = far < leave ? far : leave;
+    }
   }
   *entry = enter;
   return laneBits(enter <= leave * FAR_WIDENING);
@@ -106,6 +140,7 @@ INLINE int testOcclusionBlock(const SceneView* scene, const Ray* r, __global con
 Hit nearestWide(const SceneView* scene, const Ray* r) {
   Hit best = {MAXFLOAT, NO_HIT, NO_HIT, 0.0f, 0.0f};
   if (!isFiniteRay(r)) return best;
+  const BoxRay box = makeBoxRay(r);
   int waiting[WIDE_STACK];
   float entries[WIDE_STACK];
   int depth = 0;
@@ -117,7 +152,7 @@ Hit nearestWide(const SceneView* scene, const Ray* r) {
       __global const float* node = scene->wideNodes + (size_t)current * WIDE_NODE_FLOATS;
       __global const int* child = (__global const int*)(node + 48);
       float8 entry8;
-      uint bits = wideEntries(r, node, best.t, &entry8);
+      uint bits = wideEntries(r, &box, node, best.t, &entry8);
       if (bits != 0) {
         const uint i = lowestBit(bits);
         bits &= bits - 1;
@@ -164,6 +199,7 @@ Hit nearestWide(const SceneView* scene, const Ray* r) {
 INLINE float3 transmittanceWide(const SceneView* scene, const Ray* r, float tMax) {
   uint stops[3] = {0, 0, 0};
   if (!isFiniteRay(r)) return (float3)(1.0f);
+  const BoxRay box = makeBoxRay(r);
   int waiting[WIDE_STACK];
   int depth = 0;
   int current = 0;
@@ -175,7 +211,7 @@ INLINE float3 transmittanceWide(const SceneView* scene, const Ray* r, float tMax
       __global const float* node = scene->wideNodes + (size_t)current * WIDE_NODE_FLOATS;
       __global const int* child = (__global const int*)(node + 48);
       float8 entry;
-      uint bits = wideEntries(r, node, tMax, &entry);
+      uint bits = wideEntries(r, &box, node, tMax, &entry);
       if (bits != 0) {
         current = child[lowestBit(bits)];
         for (bits &= bits - 1; bits != 0; bits &= bits - 1) waiting[depth++] = child[lowestBit(bits)];

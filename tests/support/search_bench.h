@@ -1,4 +1,4 @@
-// The real intersect and occlude kernels on rays of the test's choice, in each of the four forms of the
+// The real intersect and occlude kernels on rays of the test's choice, in each of the forms of the
 // search, and a brute force in double precision to judge them by.
 #pragma once
 
@@ -18,11 +18,13 @@ struct SearchForm {
   const char* name;
   Search search;
   Lanes lanes;
+  bool wide = false;
 };
 inline constexpr std::array kSearchForms{SearchForm{"single/array", Search::Array, Lanes::One},
                                          SearchForm{"single/tree", Search::Tree, Lanes::One},
                                          SearchForm{"packet/array", Search::Array, Lanes::Eight},
-                                         SearchForm{"packet/tree", Search::Tree, Lanes::Eight}};
+                                         SearchForm{"packet/tree", Search::Tree, Lanes::Eight},
+                                         SearchForm{"wide/tree", Search::Tree, Lanes::One, true}};
 
 struct TestRay {
   glm::vec3 o, d;
@@ -56,11 +58,13 @@ class SearchBench {
  public:
   /// `testKernels` are appended to the program; give the same text for the same lab.
   SearchBench(SearchLab& lab, const Scene& scene, const SearchForm& form, const std::string& testKernels = {})
-      : compute_(lab.compute), packets_(form.lanes == Lanes::Eight) {
+      : compute_(lab.compute), eightEach_(form.lanes == Lanes::Eight || form.wide) {
     Settings settings;
     settings.search = form.search;
     settings.lanes = form.lanes;
-    const auto features = SceneFeatures::analyse(scene, settings, {true});
+    auto features = SceneFeatures::analyse(scene, settings, {true});
+    if (form.wide)
+      features = SceneFeatures::ofBits(features.bits() | std::uint64_t{1} << static_cast<int>(Feature::WIDE));
     auto& program = lab.programs[features.bits()];
     if (!program())
       program = compute_.build(assembleKernelSource({"intersect.cl", "occlude.cl"}, testKernelFolder()) +
@@ -91,7 +95,7 @@ class SearchBench {
     const Buffer in = compute_.upload("rays", queue);
     const std::vector<float> rubbish(std::size_t{HIT_PLANES} * capacity + QUEUE_PADDING, std::nanf(""));
     const Buffer out = compute_.upload("hits", rubbish);
-    stages->run("intersect", packets_ ? (count + 7) / 8 : count, count, deviceScene, first, count, capacity,
+    stages->run("intersect", eightEach_ ? (count + 7) / 8 : count, count, deviceScene, first, count, capacity,
                 in, out);
     std::vector<float> hits(rubbish.size());
     compute_.read(out, 0, out.bytes, hits.data());
@@ -126,7 +130,7 @@ class SearchBench {
                  queue = compute_.upload("shadowQueue", order);
     const Buffer radiance =
         compute_.upload("entryRadiance", std::vector<float>(std::size_t{3} * capacity, 0.0F));
-    stages->run("occlude", packets_ ? (count + 7) / 8 : count, count, deviceScene, count, capacity, queue,
+    stages->run("occlude", eightEach_ ? (count + 7) / 8 : count, count, deviceScene, count, capacity, queue,
                 candidates, radiance);
     std::vector<float> light(count);
     compute_.read(radiance, 0, count * sizeof(float), light.data());
@@ -142,7 +146,7 @@ class SearchBench {
 
  private:
   Compute& compute_;
-  bool packets_;
+  bool eightEach_;
   TriTree tree_;
 };
 

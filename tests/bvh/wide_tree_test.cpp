@@ -1,0 +1,100 @@
+// The eight-wide tree holds what the two-wide tree holds: every triangle once, in boxes that contain it,
+// within bounds.
+#include "bvh/wide_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/random_scenes.h"
+
+namespace whittle {
+namespace {
+
+struct Walk {
+  std::vector<int> seen;  ///< how often a position of TriTree::order lies in a block
+  int stack = 0;
+  std::size_t nodes = 0;
+};
+
+bool contains(const WideNode& n, int k, float x, float y, float z) {
+  return n.lo[0][k] <= x && x <= n.hi[0][k] && n.lo[1][k] <= y && y <= n.hi[1][k] && n.lo[2][k] <= z &&
+         z <= n.hi[2][k];
+}
+
+/// Visits everything below `index`; `boxes`: every box on the way must contain each corner.
+void walk(const WideTree& wide, const TriTree& tree, const test::TriangleMesh& mesh, std::int32_t index,
+          int waiting, std::vector<std::pair<std::int32_t, int>>& boxes, Walk& w) {
+  ++w.nodes;
+  const WideNode& node = wide.nodes.at(static_cast<std::size_t>(index));
+  int children = 0;
+  for (int k = 0; k < 8; ++k) children += node.lo[0][k] <= node.hi[0][k];
+  w.stack = std::max(w.stack, waiting + children - 1);
+  for (int k = 0; k < 8; ++k) {
+    if (!(node.lo[0][k] <= node.hi[0][k])) continue;
+    boxes.emplace_back(index, k);
+    if (node.child[k] >= 0) {
+      ASSERT_GT(node.child[k], index) << "a cycle";
+      walk(wide, tree, mesh, node.child[k], waiting + children - 1, boxes, w);
+    } else {
+      const TriangleBlock& block = wide.blocks.at(static_cast<std::size_t>(~node.child[k]));
+      ASSERT_TRUE(block.count >= 1 && block.count <= 8);
+      for (std::uint32_t lane = 0; lane < 8; ++lane) {
+        if (lane >= block.count) {
+          EXPECT_TRUE(std::isnan(block.v[0][0][lane]));
+          continue;
+        }
+        const std::uint32_t t = tree.order.at(block.first + lane);
+        EXPECT_EQ(block.primitive[lane], t);
+        ++w.seen.at(block.first + lane);
+        for (int corner = 0; corner < 3; ++corner) {
+          const glm::vec3 p = mesh.positions[mesh.triangles[t][corner]];
+          for (int a = 0; a < 3; ++a) EXPECT_EQ(block.v[corner][a][lane], p[a]);
+          for (const auto& [n, c] : boxes)
+            ASSERT_TRUE(contains(wide.nodes[static_cast<std::size_t>(n)], c, p.x, p.y, p.z));
+        }
+      }
+    }
+    boxes.pop_back();
+  }
+}
+
+void expectWhole(const test::TriangleMesh& mesh, const std::string& name, const BuildOptions& options = {}) {
+  SCOPED_TRACE(name);
+  const TriTree tree = buildTriTree(mesh.positions, mesh.triangles, options);
+  const WideTree wide = buildWideTree(tree, mesh.positions, mesh.triangles);
+  Walk w;
+  w.seen.resize(tree.order.size());
+  std::vector<std::pair<std::int32_t, int>> boxes;
+  walk(wide, tree, mesh, 0, 0, boxes, w);
+  for (std::size_t i = 0; i < w.seen.size(); ++i) ASSERT_EQ(w.seen[i], 1) << "position " << i;
+  EXPECT_EQ(w.nodes, wide.nodes.size());
+  EXPECT_EQ(w.stack, std::max(0, wide.stack));
+}
+
+TEST(WideTree, HoldsEveryTriangleOnce) {
+  for (const std::size_t count : {0U, 1U, 2U, 7U, 8U, 9U, 63U, 1000U, 20000U})
+    expectWhole(test::randomSoup(count, 0.1F, 41 + count), std::to_string(count));
+}
+
+TEST(WideTree, LongLeavesBecomeSeveralBlocks) {
+  test::TriangleMesh alike;
+  for (int i = 0; i < 1000; ++i) alike.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  BuildOptions sixteen;
+  sixteen.maxLeafTriangles = 16;
+  expectWhole(alike, "a thousand alike", sixteen);
+  expectWhole(test::randomSoup(500, 5.0F, 7), "overlapping", sixteen);
+}
+
+/// Half-empty nodes are what the collapse is there to avoid: opening the child of the largest box until there
+/// are eight leaves 4.1 children in a node of a height field.
+TEST(WideTree, MostLanesAreTaken) {
+  const auto mesh = test::randomSoup(20000, 0.02F, 5);
+  const TriTree tree = buildTriTree(mesh.positions, mesh.triangles);
+  const WideTree wide = buildWideTree(tree, mesh.positions, mesh.triangles);
+  const double children = static_cast<double>(wide.nodes.size() - 1 + wide.blocks.size());
+  EXPECT_GE(children / static_cast<double>(wide.nodes.size()), 5.0);
+}
+
+}  // namespace
+}  // namespace whittle

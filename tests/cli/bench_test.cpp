@@ -1,0 +1,63 @@
+// whittle bench: the names of its report are a contract with scripts; rates are not tested.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "run_whittle.h"
+
+namespace whittle::test {
+namespace {
+
+using Json = nlohmann::json;
+
+Json benchOf(const std::vector<std::string>& more) {
+  std::vector<std::string> args{
+      "bench", std::string(WHITTLE_SCENES) + "/shadow.glb", "--json", "--rays", "2000", "--runs", "1"};
+  args.insert(args.end(), more.begin(), more.end());
+  const Outcome run = runWhittle(args);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return Json::parse(run.out);
+}
+
+TEST(Bench, HasARowForEachKindOfRayAndQuery) {
+  const Json r = benchOf({});
+  for (const char* key : {"scene", "triangles", "threads", "device", "build", "rows"})
+    EXPECT_TRUE(r.contains(key)) << key;
+  for (const char* key : {"seconds", "bytesPerTriangle"}) EXPECT_GT(r["build"][key], 0) << key;
+  std::set<std::string> found;
+  for (const auto& row : r["rows"]) {
+    found.insert(row["rays"].get<std::string>() + " " + row["query"].get<std::string>());
+    EXPECT_GT(row["count"], 0);
+    EXPECT_GT(row["mraysPerSecond"], 0);
+  }
+  for (const char* kind : {"eye", "shadow", "mirror1", "mirror2", "refraction", "cosine", "uniform"})
+    for (const char* query : {" nearest", " any"})
+      EXPECT_TRUE(found.contains(std::string(kind) + query)) << kind << query;
+  EXPECT_EQ(r["rows"].size(), 14U);
+}
+
+/// Embree in its robust mode judges every kernel; a build without it has nothing to say.
+TEST(Bench, EveryKernelAgreesWithEmbree) {
+  const Json r = benchOf({"--all-kernels", "--robust-only"});
+  std::set<std::string> kernels;
+  for (const auto& row : r["rows"]) {
+    kernels.insert(row["kernel"].get<std::string>());
+    if (!row.contains("embreeMode")) GTEST_SKIP() << "this build has no Embree";
+    EXPECT_EQ(row["embreeMode"].get<std::string>().rfind("robust", 0), 0U);
+    // A ray within rounding of an edge may go either way: one of two thousand.
+    EXPECT_LE(row["disagree"], 1) << row;
+  }
+  EXPECT_EQ(kernels, (std::set<std::string>{"packet8", "wide8", "single2"}));
+}
+
+TEST(Bench, TextSaysTheSame) {
+  const Outcome run = runWhittle(
+      {"bench", std::string(WHITTLE_SCENES) + "/shadow.glb", "--rays", "500", "--runs", "1", "--quiet"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  for (const char* part : {"triangles", "bytes for each triangle", "mirror2", "packet8", "Mrays/s"})
+    EXPECT_NE(run.out.find(part), std::string::npos) << part << " in:\n" << run.out;
+}
+
+}  // namespace
+}  // namespace whittle::test

@@ -21,24 +21,15 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
   vstore8(as_float8(hit.triangle), 0, hits + HIT_TRIANGLE * stride + i);
   vstore8(hit.b1, 0, hits + HIT_B1 * stride + i);
   vstore8(hit.b2, 0, hits + HIT_B2 * stride + i);
-#elif HAS(WIDE)
-  const uint end = min((uint)get_global_id(0) * 8 + 8, count);
-  for (uint i = (uint)get_global_id(0) * 8; i < end; ++i) {
+#else
+  const uint begin = (uint)get_global_id(0) * RAYS_EACH, end = min(begin + RAYS_EACH, count);
+  for (uint i = begin; i < end; ++i) {
     const Ray r = makeRay(loadPlanes3(rays, capacity, RAY_O, first + i), loadPlanes3(rays, capacity, RAY_D, first + i));
-    const Hit hit = nearestWide(&scene, &r);
+    const Hit hit = nearestOne(&scene, &r);
     hits[HIT_T * stride + i] = hit.t;
     hits[HIT_TRIANGLE * stride + i] = as_float(hit.triangle);
     hits[HIT_B1 * stride + i] = hit.b1;
     hits[HIT_B2 * stride + i] = hit.b2;
   }
-#else
-  const uint i = get_global_id(0);
-  if (i >= count) return;
-  const Ray r = makeRay(loadPlanes3(rays, capacity, RAY_O, first + i), loadPlanes3(rays, capacity, RAY_D, first + i));
-  const Hit hit = nearestSingle(&scene, &r);
-  hits[HIT_T * stride + i] = hit.t;
-  hits[HIT_TRIANGLE * stride + i] = as_float(hit.triangle);
-  hits[HIT_B1 * stride + i] = hit.b1;
-  hits[HIT_B2 * stride + i] = hit.b2;
 #endif
 }

@@ -55,26 +55,16 @@ __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity,
     const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry);
     storePlanes3(entryRadiance, capacity, 0, entry, before + contribution * transmittanceFromStops(own));
   }
-#elif HAS(WIDE)
-  const uint end = min((uint)get_global_id(0) * 8 + 8, count);
-  for (uint i = (uint)get_global_id(0) * 8; i < end; ++i) {
+#else
+  const uint begin = (uint)get_global_id(0) * RAYS_EACH, end = min(begin + RAYS_EACH, count);
+  for (uint i = begin; i < end; ++i) {
     const uint entry = shadowQueue[i];
     const Ray r = makeRay(loadPlanes3(shadows, capacity, SHADOW_O, entry), loadPlanes3(shadows, capacity, SHADOW_D, entry));
-    const float3 transmittance = transmittanceWide(&scene, &r, shadows[(size_t)SHADOW_LENGTH * capacity + entry]);
+    const float3 transmittance = transmittanceOne(&scene, &r, shadows[(size_t)SHADOW_LENGTH * capacity + entry]);
     if (!anyPositive(transmittance)) continue;
     const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
     const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry);
     storePlanes3(entryRadiance, capacity, 0, entry, before + contribution * transmittance);
   }
-#else
-  const uint i = get_global_id(0);
-  if (i >= count) return;
-  const uint entry = shadowQueue[i];
-  const Ray r = makeRay(loadPlanes3(shadows, capacity, SHADOW_O, entry), loadPlanes3(shadows, capacity, SHADOW_D, entry));
-  const float3 transmittance = transmittanceSingle(&scene, &r, shadows[(size_t)SHADOW_LENGTH * capacity + entry]);
-  if (!anyPositive(transmittance)) return;
-  const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
-  const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry);
-  storePlanes3(entryRadiance, capacity, 0, entry, before + contribution * transmittance);
 #endif
 }

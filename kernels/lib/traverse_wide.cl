@@ -224,3 +224,15 @@ INLINE float3 transmittanceWide(const SceneView* scene, const Ray* r, float tMax
 }
 
 #endif
+
+// The search for one ray, and how many of them a work item walks one after another: a stack for eight-wide nodes is large,
+// and PoCL gives each work item of a group its own.
+#if HAS(WIDE)
+#define RAYS_EACH 8
+#define nearestOne nearestWide
+#define transmittanceOne transmittanceWide
+#else
+#define RAYS_EACH 1
+#define nearestOne nearestSingle
+#define transmittanceOne transmittanceSingle
+#endif

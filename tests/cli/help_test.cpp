@@ -34,7 +34,8 @@ TEST_P(Help, FitsATerminalAndSpeaksThisProgramsWords) {
   EXPECT_NE(run.out.find("Usage: whittle"), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cli, Help, testing::Values("", "render", "reference", "info", "devices", "compare", "bench"),
+INSTANTIATE_TEST_SUITE_P(Cli, Help,
+                         testing::Values("", "render", "reference", "info", "devices", "compare", "bench"),
                          [](const auto& of) { return std::string(*of.param ? of.param : "whittle"); });
 
 TEST(HelpOfRender, ShowsEachOptionOnceWithItsDefault) {

@@ -1,6 +1,8 @@
 // Scene → device structs → buffers. Layouts: kernels/shared/layout.h.
 #include "render/device_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -202,6 +204,10 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tre
     std::vector<glm::uvec3> triangles;
     for (const auto& t : scene.triangles) triangles.emplace_back(t.v0, t.v1, t.v2);
     WideTree wide = buildWideTree(tree, scene.positions, triangles);
+    if (wide.stack > WIDE_STACK)
+      throw ClError(
+          fmt::format("the eight-wide tree leaves {} children waiting, the kernels have room for {}",
+                      wide.stack, WIDE_STACK));
     flattenTriangles(wide.blocks);
     d.wideNodes = compute.upload("wideNodes", wide.nodes);
     d.blocks = compute.upload("blocks", wide.blocks);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "bench/embree_yardstick.h"
 #include "bench/query_runner.h"

@@ -40,7 +40,7 @@ struct BenchResult {
   std::string device;
   double buildSeconds = 0;
   double bytesPerTriangle = 0;  ///< tree and triangles as the searches read them
-  double embreeSeconds = 0;     ///< build of the fast mode's scene, medium quality
+  double embreeSeconds = 0;     ///< build in medium quality: fast, or robust where only that competes
   std::vector<BenchRow> rows;
 };
 

@@ -110,8 +110,8 @@
 #define COMPACT_CHUNK 1024  // entries that one work item of the compaction walks: many on a CPU, few on a GPU
 #endif
 
-#define LONG_RUN 256  // a sample with more entries than this in one queue is cut into slices of this length
-#define WIDE_STACK 192     // waiting entries of a search through the eight-wide tree; deeper trees are searched two-wide
+#define LONG_RUN 256    // a sample with more entries than this in one queue is cut into slices of this length
+#define WIDE_STACK 192  // waiting entries of a search through the eight-wide tree; a deeper one is refused
 #define MAX_TREE_DEPTH 60  // traversal stack; the builder keeps to it
 
 #endif

@@ -41,6 +41,13 @@ double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+RTCIntersectContext contextFor(const EmbreeMode& mode) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = mode.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  return context;
+}
+
 constexpr std::size_t kBlock = 8, kGrain = 512;  // blocks of rays; blocks a task takes at least
 
 }  // namespace
@@ -146,16 +153,12 @@ void EmbreeYardstick::load(const RaySet& rays) {
 
 double EmbreeYardstick::nearest(const EmbreeMode& mode) {
   State& s = *state_;
-  const auto flag =
-      mode.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   const auto hitOf = [](float t, unsigned geometry, unsigned primitive) {
     return QueryHit{t, 0, 0, geometry == RTC_INVALID_GEOMETRY_ID ? -1 : std::int64_t{primitive}};
   };
   if (mode.width == 1)
     return s.timed([&](std::size_t block) {
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      context.flags = flag;
+      RTCIntersectContext context = contextFor(mode);
       for (std::size_t i = block * kBlock; i < block * kBlock + kBlock; ++i) {
         RTCRayHit r;
         r.ray = s.rays[i];
@@ -166,9 +169,7 @@ double EmbreeYardstick::nearest(const EmbreeMode& mode) {
       }
     });
   return s.timed([&](std::size_t block) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = flag;
+    RTCIntersectContext context = contextFor(mode);
     alignas(32) static constexpr int kAll[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
     RTCRayHit8 r;
     r.ray = s.blocks[block];
@@ -182,13 +183,9 @@ double EmbreeYardstick::nearest(const EmbreeMode& mode) {
 
 double EmbreeYardstick::any(const EmbreeMode& mode) {
   State& s = *state_;
-  const auto flag =
-      mode.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   if (mode.width == 1)
     return s.timed([&](std::size_t block) {
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      context.flags = flag;
+      RTCIntersectContext context = contextFor(mode);
       for (std::size_t i = block * kBlock; i < block * kBlock + kBlock; ++i) {
         RTCRay r = s.rays[i];
         rtcOccluded1(s.scene, &context, &r);
@@ -196,9 +193,7 @@ double EmbreeYardstick::any(const EmbreeMode& mode) {
       }
     });
   return s.timed([&](std::size_t block) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = flag;
+    RTCIntersectContext context = contextFor(mode);
     alignas(32) static constexpr int kAll[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
     RTCRay8 r = s.blocks[block];
     rtcOccluded8(kAll, s.scene, &context, &r);

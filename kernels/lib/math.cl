@@ -53,6 +53,17 @@ INLINE float8 differenceOfProducts8(float8 a, float8 b, float8 c, float8 d) {
   return difference + error;
 }
 
+/// Of four, pairs first; selects, since fmax and fmin are slow on PoCL.
+INLINE float8 largest8(float8 a, float8 b, float8 c, float8 d) {
+  const float8 ab = a > b ? a : b, cd = c > d ? c : d;
+  return ab > cd ? ab : cd;
+}
+
+INLINE float8 smallest8(float8 a, float8 b, float8 c, float8 d) {
+  const float8 ab = a < b ? a : b, cd = c < d ? c : d;
+  return ab < cd ? ab : cd;
+}
+
 /// What a + b lost when it was rounded to `sum`; exact (Knuth's two-sum).
 INLINE float sumError(float a, float b, float sum) {
   const float part = sum - a;

@@ -96,10 +96,8 @@ INLINE int8 childEntries(const Packet* p, __global const Node* node, int c, floa
     const float8 farX = fma((float8)(box[6 - p->nearPlane[0]]), p->inverse[0], p->farBias[0]);
     const float8 farY = fma((float8)(box[6 - p->nearPlane[1] + 1]), p->inverse[1], p->farBias[1]);
     const float8 farZ = fma((float8)(box[6 - p->nearPlane[2] + 2]), p->inverse[2], p->farBias[2]);
-    const float8 nearXY = nearX > nearY ? nearX : nearY, nearZ0 = nearZ > enter ? nearZ : enter;
-    const float8 farXY = farX < farY ? farX : farY, farZ1 = farZ < leave ? farZ : leave;
-    enter = nearXY > nearZ0 ? nearXY : nearZ0;
-    leave = farXY < farZ1 ? farXY : farZ1;
+    enter = largest8(nearX, nearY, nearZ, enter);
+    leave = smallest8(farX, farY, farZ, leave);
   } else {
     for (int a = 0; a < 3; ++a) {
       const float8 lo = (node->lo[c][a] - p->o[a]) * p->inverse[a];

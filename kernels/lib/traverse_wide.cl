@@ -55,10 +55,8 @@ INLINE uint wideEntries(const Ray* r, const BoxRay* b, __global const float* nod
     const float8 farX = fma(vload8(0, node + 24 - x), (float8)(r->inverse[0]), (float8)(b->farBias[0]));
     const float8 farY = fma(vload8(0, node + 40 - y), (float8)(r->inverse[1]), (float8)(b->farBias[1]));
     const float8 farZ = fma(vload8(0, node + 56 - z), (float8)(r->inverse[2]), (float8)(b->farBias[2]));
-    const float8 nearXY = nearX > nearY ? nearX : nearY, nearZ0 = nearZ > enter ? nearZ : enter;
-    const float8 farXY = farX < farY ? farX : farY, farZ1 = farZ < leave ? farZ : leave;
-    enter = nearXY > nearZ0 ? nearXY : nearZ0;
-    leave = farXY < farZ1 ? farXY : farZ1;
+    enter = largest8(nearX, nearY, nearZ, enter);
+    leave = smallest8(farX, farY, farZ, leave);
   } else {
     for (int a = 0; a < 3; ++a) {
       const int down = !(r->inverse[a] >= 0.0f);

@@ -1,6 +1,6 @@
-// intersect: the nearest hit of each ray of a segment of the ray queue. One ray for each work item, or eight
+// intersect: the nearest hit of each ray of a segment of the ray queue. One ray for each work item, or sixteen
 // neighbouring ones (PACKETS). Writes the hit queue; entry i of the hits belongs to ray first + i.
-#include "lib/traverse_wide.cl"
+#include "lib/traverse_packet.cl"
 
 __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const uint capacity,
                         __global const float* rays,  // [RAY_PLANES][capacity]
@@ -8,28 +8,37 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
   const SceneView scene = SCENE_VIEW;
   const size_t stride = capacity;
 #if HAS(PACKETS)
-  const uint i = (uint)get_global_id(0) * 8;
+  const uint i = (uint)get_global_id(0) * PACKET_RAYS;
   if (i >= count) return;
-  __global const float* r = rays + first + i;
-  const Packet p = makePacket(vload8(0, r + RAY_O * stride), vload8(0, r + (RAY_O + 1) * stride),
-                              vload8(0, r + (RAY_O + 2) * stride), vload8(0, r + RAY_D * stride),
-                              vload8(0, r + (RAY_D + 1) * stride), vload8(0, r + (RAY_D + 2) * stride));
-  const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-  const int8 awake = lane < (int)(count - i);
-  const PacketHit hit = nearestPacket(&scene, &p, select((float8)(-1.0f), (float8)(MAXFLOAT), awake));
-  vstore8(hit.t, 0, hits + HIT_T * stride + i);
-  vstore8(as_float8(hit.triangle), 0, hits + HIT_TRIANGLE * stride + i);
-  vstore8(hit.b1, 0, hits + HIT_B1 * stride + i);
-  vstore8(hit.b2, 0, hits + HIT_B2 * stride + i);
-#else
-  const uint begin = (uint)get_global_id(0) * RAYS_EACH, end = min(begin + RAYS_EACH, count);
-  for (uint i = begin; i < end; ++i) {
-    const Ray r = makeRay(loadPlanes3(rays, capacity, RAY_O, first + i), loadPlanes3(rays, capacity, RAY_D, first + i));
-    const Hit hit = nearestOne(&scene, &r);
-    hits[HIT_T * stride + i] = hit.t;
-    hits[HIT_TRIANGLE * stride + i] = as_float(hit.triangle);
-    hits[HIT_B1 * stride + i] = hit.b1;
-    hits[HIT_B2 * stride + i] = hit.b2;
+  const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const int16 awake = lane < (int)(count - i);
+  float16 o[3], d[3];
+  for (int a = 0; a < 3; ++a) {
+    // Lanes past the end are copies of the first ray, asleep: they must not widen the packet's bounds.
+    __global const float* from = rays + (size_t)(RAY_O + a) * stride + first + i;
+    __global const float* along = rays + (size_t)(RAY_D + a) * stride + first + i;
+    o[a] = select((float16)(from[0]), vload16(0, from), awake);
+    d[a] = select((float16)(along[0]), vload16(0, along), awake);
   }
+  const Packet p = makePacket(o, d);
+  PacketHit hit;
+  hit.t = select((float16)(-1.0f), (float16)(MAXFLOAT), awake);
+  hit.triangle = (uint16)(NO_HIT);
+  hit.v = hit.w = (float16)(0.0f);
+  hit.det = (float16)(1.0f);
+  nearestPacket(&scene, &p, &hit);
+  vstore16(hit.t, 0, hits + HIT_T * stride + i);
+  vstore16(as_float16(hit.triangle), 0, hits + HIT_TRIANGLE * stride + i);
+  vstore16(hit.v / hit.det, 0, hits + HIT_B1 * stride + i);
+  vstore16(hit.w / hit.det, 0, hits + HIT_B2 * stride + i);
+#else
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  const Ray r = makeRay(loadPlanes3(rays, capacity, RAY_O, first + i), loadPlanes3(rays, capacity, RAY_D, first + i));
+  const Hit hit = nearestSingle(&scene, &r);
+  hits[HIT_T * stride + i] = hit.t;
+  hits[HIT_TRIANGLE * stride + i] = as_float(hit.triangle);
+  hits[HIT_B1 * stride + i] = hit.b1;
+  hits[HIT_B2 * stride + i] = hit.b2;
 #endif
 }

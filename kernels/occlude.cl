@@ -1,7 +1,49 @@
 // occlude: what of the light reaches each shadow ray's origin. Reads the shadow queue (indices of candidates), adds
 // contribution · transmittance to the entry's radiance: an entry has one shadow ray for each light round, so no two
 // work items add to the same place.
-#include "lib/traverse_wide.cl"
+#include "lib/traverse_packet.cl"
+
+#if HAS(PACKETS)
+/// Sixteen entries of a shadow queue that are in use.
+typedef struct {
+  __global const uint* entries;
+  uint active;     // lanes in use
+  int neighbours;  // 1: sixteen entries in a row, so that planes are read and written whole
+} ShadowLanes;
+
+/// A plane of the candidates, one entry in each lane; lanes out of use copy the first.
+INLINE float16 loadLanes(const ShadowLanes* s, __global const float* plane) {
+  if (s->neighbours) return vload16(0, plane + s->entries[0]);
+  float part[PACKET_RAYS];
+  for (uint k = 0; k < PACKET_RAYS; ++k) part[k] = plane[s->entries[k < s->active ? k : 0]];
+  return vload16(0, part);
+}
+
+INLINE void addLight(const ShadowLanes* s, int16 blocked, const uint* stops, __global const float* shadows, uint capacity,
+                     __global float* entryRadiance) {
+#if !HAS(FILTERED_SHADOWS)
+  if (s->neighbours) {
+    for (int c = 0; c < 3; ++c) {
+      __global float* radiance = entryRadiance + (size_t)c * capacity + s->entries[0];
+      const float16 before = vload16(0, radiance);
+      const float16 contribution = loadLanes(s, shadows + (size_t)(SHADOW_CONTRIBUTION + c) * capacity);
+      vstore16(select(before + contribution, before, blocked), 0, radiance);
+    }
+    return;
+  }
+#endif
+  int dark[PACKET_RAYS];
+  vstore16(blocked, 0, dark);
+  for (uint k = 0; k < s->active; ++k) {
+    if (dark[k]) continue;
+    const uint own[3] = {stops[k], stops[PACKET_RAYS + k], stops[2 * PACKET_RAYS + k]};
+    const uint entry = s->entries[k];
+    const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
+    const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry);
+    storePlanes3(entryRadiance, capacity, 0, entry, before + contribution * transmittanceFromStops(own));
+  }
+}
+#endif
 
 __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity,
                       __global const uint* shadowQueue,   // [count] entries with a shadow ray, in order
@@ -9,62 +51,37 @@ __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity,
                       __global float* entryRadiance) {    // [3][capacity]
   const SceneView scene = SCENE_VIEW;
 #if HAS(PACKETS)
-  const uint i = (uint)get_global_id(0) * 8;
+  const uint i = (uint)get_global_id(0) * PACKET_RAYS;
   if (i >= count) return;
-  const uint active = count - i < 8 ? count - i : 8;
-  const uint start = shadowQueue[i];
-  const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-  float8 plane[7];
-  // The queue is in order, so eight entries that span eight are neighbours: whole planes are read, not lanes one by one.
-  const int neighbours = active == 8 && shadowQueue[i + 7] == start + 7;
-  if (neighbours) {
-    for (int k = 0; k < 7; ++k) plane[k] = vload8(0, shadows + (size_t)k * capacity + start);
-  } else {
-    float part[7][8];
-    for (uint k = 0; k < 8; ++k) {
-      const uint entry = shadowQueue[i + (k < active ? k : 0)];
-      for (int n = 0; n < 7; ++n) part[n][k] = shadows[(size_t)n * capacity + entry];
-    }
-    for (int k = 0; k < 7; ++k) plane[k] = vload8(0, part[k]);
+  ShadowLanes s;
+  s.entries = shadowQueue + i;
+  s.active = min(count - i, (uint)PACKET_RAYS);
+  // The queue is in order, so sixteen entries that span sixteen are neighbours.
+  s.neighbours = s.active == PACKET_RAYS && s.entries[PACKET_RAYS - 1] == s.entries[0] + PACKET_RAYS - 1;
+  float16 o[3], d[3];
+  for (int a = 0; a < 3; ++a) {
+    o[a] = loadLanes(&s, shadows + (size_t)(SHADOW_O + a) * capacity);
+    d[a] = loadLanes(&s, shadows + (size_t)(SHADOW_D + a) * capacity);
   }
-  const Packet p = makePacket(plane[0], plane[1], plane[2], plane[3], plane[4], plane[5]);
-  const float8 length = select((float8)(-1.0f), plane[SHADOW_LENGTH], lane < (int)active);
-  uint stops[24];
+  const Packet p = makePacket(o, d);
+  const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const float16 length = loadLanes(&s, shadows + (size_t)SHADOW_LENGTH * capacity);
+  float16 tMax = select((float16)(-1.0f), length, lane < (int)s.active);
+  uint stops[3 * PACKET_RAYS];
 #if HAS(FILTERED_SHADOWS) || HAS(ALPHA_MASK)
-  for (int k = 0; k < 24; ++k) stops[k] = 0;
+  for (int k = 0; k < 3 * PACKET_RAYS; ++k) stops[k] = 0;
 #endif
-  const int8 blocked = occludedPacket(&scene, &p, length, stops);
-#if !HAS(FILTERED_SHADOWS)
-  if (neighbours) {
-    for (int c = 0; c < 3; ++c) {
-      __global float* radiance = entryRadiance + (size_t)c * capacity + start;
-      const float8 before = vload8(0, radiance);
-      const float8 contribution = vload8(0, shadows + (size_t)(SHADOW_CONTRIBUTION + c) * capacity + start);
-      vstore8(select(before + contribution, before, blocked), 0, radiance);
-    }
-    return;
-  }
-#endif
-  int dark[8];
-  vstore8(blocked, 0, dark);
-  for (uint k = 0; k < active; ++k) {
-    if (dark[k]) continue;
-    const uint own[3] = {stops[k], stops[8 + k], stops[16 + k]};
-    const uint entry = shadowQueue[i + k];
-    const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
-    const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry);
-    storePlanes3(entryRadiance, capacity, 0, entry, before + contribution * transmittanceFromStops(own));
-  }
+  occludedPacket(&scene, &p, &tMax, stops);
+  addLight(&s, tMax == -INFINITY, stops, shadows, capacity, entryRadiance);
 #else
-  const uint begin = (uint)get_global_id(0) * RAYS_EACH, end = min(begin + RAYS_EACH, count);
-  for (uint i = begin; i < end; ++i) {
-    const uint entry = shadowQueue[i];
-    const Ray r = makeRay(loadPlanes3(shadows, capacity, SHADOW_O, entry), loadPlanes3(shadows, capacity, SHADOW_D, entry));
-    const float3 transmittance = transmittanceOne(&scene, &r, shadows[(size_t)SHADOW_LENGTH * capacity + entry]);
-    if (!anyPositive(transmittance)) continue;
-    const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
-    const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry);
-    storePlanes3(entryRadiance, capacity, 0, entry, before + contribution * transmittance);
-  }
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  const uint entry = shadowQueue[i];
+  const Ray r = makeRay(loadPlanes3(shadows, capacity, SHADOW_O, entry), loadPlanes3(shadows, capacity, SHADOW_D, entry));
+  const float3 transmittance = transmittanceSingle(&scene, &r, shadows[(size_t)SHADOW_LENGTH * capacity + entry]);
+  if (!anyPositive(transmittance)) return;
+  const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
+  const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry);
+  storePlanes3(entryRadiance, capacity, 0, entry, before + contribution * transmittance);
 #endif
 }

@@ -37,8 +37,7 @@ void copyPlane(std::vector<float>& queue, std::uint32_t capacity, std::uint32_t 
 const std::vector<QueryKernel>& queryKernels() {
   constexpr std::uint64_t common = bit(Feature::TREE) | bit(Feature::SHADOWS) | bit(Feature::LIGHTS);
   static const std::vector<QueryKernel> kernels{
-      {"packet8", common | bit(Feature::PACKETS), 8},
-      {"wide8", common | bit(Feature::WIDE), 8},
+      {"packet16", common | bit(Feature::PACKETS), PACKET_RAYS},
       {"single2", common, 1},
   };
   return kernels;

@@ -49,8 +49,9 @@ class Collapse {
   }
 
   WideTree run() {
+    out_.corners.resize(tree_.order.size() * 9 + kLanes);
     out_.nodes.emplace_back();
-    std::vector<Pending> pending{{0, 0, 0}};
+    std::vector<Pending> pending{{0, 0, 0, 1}};
     while (!pending.empty()) {
       const Pending p = pending.back();
       pending.pop_back();
@@ -64,6 +65,7 @@ class Collapse {
     std::int32_t from;  ///< node of the two-wide tree
     std::size_t to;     ///< node of the wide tree
     int waiting;        ///< entries on a search's stack on the way here
+    int depth;          ///< nodes on the way here, this one among them
   };
 
   bool isThere(const TreeNode& node, int c) const { return node.lo[c][0] <= node.hi[c][0]; }
@@ -167,10 +169,14 @@ class Collapse {
     const auto n = static_cast<std::size_t>(p.from);
     shareOut(n, plans_[n].total, plans_[n].toLeft, children);
     splitLongLeaves(children);
+    // A shadow ray visits them in this order: what it is most likely to meet comes first.
+    std::stable_sort(children.begin(), children.end(),
+                     [](const Subtree& a, const Subtree& b) { return a.area() > b.area(); });
     const int waiting = p.waiting + static_cast<int>(children.size()) - 1;
     out_.stack = std::max(out_.stack, waiting);
+    out_.depth = std::max(out_.depth, p.depth);
     for (std::uint32_t k = 0; k < kLanes; ++k)
-      setChild(p.to, k, k < children.size() ? &children[k] : nullptr, waiting, pending);
+      setChild(p.to, k, k < children.size() ? &children[k] : nullptr, waiting, p.depth, pending);
   }
 
   /// A leaf of more than a block becomes two children of the same box where there is room, else a node of its
@@ -186,7 +192,7 @@ class Collapse {
     }
   }
 
-  void setChild(std::size_t node, std::uint32_t k, const Subtree* child, int waiting,
+  void setChild(std::size_t node, std::uint32_t k, const Subtree* child, int waiting, int depth,
                 std::vector<Pending>& pending) {
     for (int a = 0; a < 3; ++a) {
       out_.nodes[node].lo[a][k] = child ? child->lo[a] : kInfinity;
@@ -195,10 +201,10 @@ class Collapse {
     if (!child) return;
     if (!becomesBlock(*child)) {
       out_.nodes[node].child[k] = static_cast<std::int32_t>(out_.nodes.size());
-      pending.push_back({child->child, out_.nodes.size(), waiting});
+      pending.push_back({child->child, out_.nodes.size(), waiting, depth + 1});
       out_.nodes.emplace_back();
     } else if (child->count <= kLanes) {
-      out_.nodes[node].child[k] = addBlock(child->first, child->count);
+      out_.nodes[node].child[k] = addLeaf(child->first, child->count);
     } else {
       // Room for none: a node of two blocks of the same box.
       const auto own = out_.nodes.size();
@@ -209,26 +215,22 @@ class Collapse {
       parts[1].first += kLanes;
       parts[1].count -= kLanes;
       out_.stack = std::max(out_.stack, waiting + 1);
+      out_.depth = std::max(out_.depth, depth + 1);
       for (std::uint32_t lane = 0; lane < kLanes; ++lane)
-        setChild(own, lane, lane < 2 ? &parts[lane] : nullptr, waiting + 1, pending);
+        setChild(own, lane, lane < 2 ? &parts[lane] : nullptr, waiting + 1, depth + 1, pending);
     }
   }
 
-  std::int32_t addBlock(std::uint32_t first, std::uint32_t count) {
-    TriangleBlock block{};
-    block.first = first;
-    block.count = count;
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const bool there = lane < count;
-      const std::uint32_t t = there ? tree_.order[first + lane] : 0;
-      block.primitive[lane] = there ? t : 0xffffffffU;
-      for (int corner = 0; corner < 3; ++corner)
-        for (int a = 0; a < 3; ++a)
-          block.v[corner][a][lane] =
-              there ? positions_[triangles_[t][corner]][a] : std::numeric_limits<float>::quiet_NaN();
+  std::int32_t addLeaf(std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t lane = 0; lane < count; ++lane) {
+      const glm::uvec3& t = triangles_[tree_.order[first + lane]];
+      for (std::uint32_t k = 0; k < 3; ++k)
+        for (std::uint32_t a = 0; a < 3; ++a)
+          out_.corners[std::size_t{9} * first + std::size_t{3 * k + a} * count + lane] =
+              positions_[t[static_cast<int>(k)]][static_cast<int>(a)];
     }
-    out_.blocks.push_back(block);
-    return ~static_cast<std::int32_t>(out_.blocks.size() - 1);
+    ++out_.leaves;
+    return ~static_cast<std::int32_t>(first << 3U | (count - 1));
   }
 
   const TriTree& tree_;

@@ -11,8 +11,9 @@
 
 namespace whittle {
 
-/// Eight children, boxes as a struct of arrays. A child >= 0 is a node, < 0 the block ~child. Absent children
-/// have an empty box (lo = +inf, hi = -inf).
+/// Eight children, boxes as a struct of arrays. A child >= 0 is a node, < 0 the leaf ~child = first << 3 |
+/// count - 1: triangles order[first], order[first + 1], … of the TriTree, at most eight. Absent children have
+/// an empty box (lo = +inf, hi = -inf).
 struct WideNode {
   float lo[3][8];
   float hi[3][8];
@@ -21,21 +22,15 @@ struct WideNode {
 };
 static_assert(sizeof(WideNode) == 256);
 
-/// Up to eight triangles that are neighbours in TriTree::order: order[first], order[first + 1], … Absent
-/// lanes are NaN, which no test takes for a hit.
-struct TriangleBlock {
-  float v[3][3][8];            ///< [corner][axis][lane], metres
-  std::uint32_t primitive[8];  ///< index in the scene
-  std::uint32_t first;
-  std::uint32_t count;
-  std::uint32_t pad[6];
-};
-static_assert(sizeof(TriangleBlock) == 352);
-
 struct WideTree {
   std::vector<WideNode> nodes;  ///< nodes[0] is the root
-  std::vector<TriangleBlock> blocks;
+  /// Corners of the triangles, m, leaf by leaf as a struct of arrays: coordinate `axis` of corner k of
+  /// triangle first + lane is corners[9 first + (3 k + axis) count + lane]. Eight floats more at the end, so
+  /// that a lane beyond the last leaf's count may be read.
+  std::vector<float> corners;
+  std::size_t leaves = 0;
   int stack = 0;  ///< entries that a search may have waiting: the most children left over on any way down
+  int depth = 0;  ///< nodes on the longest way down
 };
 
 /// Collapses `tree` so that the expected cost of a search (surface area heuristic) is least: which subtrees

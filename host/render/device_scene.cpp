@@ -130,17 +130,6 @@ std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene,
   return out;
 }
 
-/// The same for the blocks of the eight-wide tree: a triangle without area becomes a point.
-void flattenTriangles(std::vector<TriangleBlock>& blocks) {
-  for (TriangleBlock& b : blocks)
-    for (std::uint32_t lane = 0; lane < b.count; ++lane) {
-      const auto corner = [&](int k) { return glm::vec3(b.v[k][0][lane], b.v[k][1][lane], b.v[k][2][lane]); };
-      if (hasArea(corner(0), corner(1), corner(2))) continue;
-      for (int k = 1; k < 3; ++k)
-        for (int a = 0; a < 3; ++a) b.v[k][a][lane] = b.v[0][a][lane];
-    }
-}
-
 std::vector<TreeNode> withSentinels(const TriTree& tree) {
   std::vector<TreeNode> nodes = tree.nodes;
   const auto sentinel = ~static_cast<std::int32_t>(tree.order.size() << 4);
@@ -182,7 +171,7 @@ std::vector<device::DeviceLight> lightsToDevice(const Scene& scene) {
 }
 
 std::string groupOf(const std::string& name) {
-  if (name == "nodes" || name == "wideNodes" || name == "blocks") return "tree";
+  if (name == "nodes" || name == "wideNodes" || name == "leaves") return "tree";
   if (name == "textures" || name == "texels" || name == "linearFromSrgb" || name == "background")
     return "textures";
   return "triangles";
@@ -199,18 +188,21 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tre
                         const SceneFeatures& features) {
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
-  if (features.has(Feature::TREE)) d.nodes = compute.upload("nodes", withSentinels(tree));
-  if (features.has(Feature::WIDE)) {
+  if (features.has(Feature::TREE) && !features.has(Feature::PACKETS))
+    d.nodes = compute.upload("nodes", withSentinels(tree));
+  if (features.has(Feature::TREE) && features.has(Feature::PACKETS)) {
     std::vector<glm::uvec3> triangles;
-    for (const auto& t : scene.triangles) triangles.emplace_back(t.v0, t.v1, t.v2);
-    WideTree wide = buildWideTree(tree, scene.positions, triangles);
-    if (wide.stack > WIDE_STACK)
-      throw ClError(
-          fmt::format("the eight-wide tree leaves {} children waiting, the kernels have room for {}",
-                      wide.stack, WIDE_STACK));
-    flattenTriangles(wide.blocks);
+    for (const auto& t : scene.triangles) {
+      triangles.emplace_back(t.v0, t.v1, t.v2);
+      if (!hasArea(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]))
+        triangles.back() = glm::uvec3(t.v0);
+    }
+    const WideTree wide = buildWideTree(tree, scene.positions, triangles);
+    if (wide.depth > WIDE_DEPTH)
+      throw ClError(fmt::format("the eight-wide tree is {} nodes deep, the kernels have room for {}",
+                                wide.depth, WIDE_DEPTH));
     d.wideNodes = compute.upload("wideNodes", wide.nodes);
-    d.blocks = compute.upload("blocks", wide.blocks);
+    d.leaves = compute.upload("leaves", wide.corners);
   }
   d.triangles = compute.upload("triangles", leafTriangles(scene, tree.order));
   std::vector<std::uint32_t> corners;

@@ -14,10 +14,9 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
     : compute_(compute),
       capacity_(capacity),
       segmentLimit_(features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity) {
-  // A packet reads up to seven entries past its segment (into the next plane, or the padding) and ignores
-  // them. It writes whole groups of eight from entry 0, which stay inside a plane because the capacity is a
-  // multiple of eight.
-  assert(capacity % 8 == 0);
+  // A packet reads up to fifteen entries past its segment (into the next plane, or the padding) and ignores
+  // them. It writes whole packets from entry 0, which stay inside a plane because the capacity is a multiple.
+  assert(capacity % PACKET_RAYS == 0);
   const auto planes = [&](const char* name, std::size_t count) {
     return compute.allocate(name, (count * capacity + QUEUE_PADDING) * sizeof(float));
   };

@@ -174,7 +174,7 @@ bool Wavefront::hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint3
 }
 
 std::uint32_t Wavefront::searchItems(std::uint32_t rays) const {
-  return setup_.features.has(Feature::PACKETS) ? (rays + 7) / 8 : rays;
+  return setup_.features.has(Feature::PACKETS) ? (rays + PACKET_RAYS - 1) / PACKET_RAYS : rays;
 }
 
 std::uint32_t Wavefront::nonFinite() {

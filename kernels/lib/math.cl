@@ -53,6 +53,13 @@ INLINE float8 differenceOfProducts8(float8 a, float8 b, float8 c, float8 d) {
   return difference + error;
 }
 
+INLINE float16 differenceOfProducts16(float16 a, float16 b, float16 c, float16 d) {
+  const float16 cd = c * d;
+  const float16 difference = fma(a, b, -cd);
+  const float16 error = fma(-c, d, cd);
+  return difference + error;
+}
+
 /// Of four, pairs first; selects, since fmax and fmin are slow on PoCL.
 INLINE float8 largest8(float8 a, float8 b, float8 c, float8 d) {
   const float8 ab = a > b ? a : b, cd = c > d ? c : d;
@@ -62,6 +69,59 @@ INLINE float8 largest8(float8 a, float8 b, float8 c, float8 d) {
 INLINE float8 smallest8(float8 a, float8 b, float8 c, float8 d) {
   const float8 ab = a < b ? a : b, cd = c < d ? c : d;
   return ab < cd ? ab : cd;
+}
+
+INLINE float16 largest16(float16 a, float16 b, float16 c, float16 d) {
+  const float16 ab = a > b ? a : b, cd = c > d ? c : d;
+  return ab > cd ? ab : cd;
+}
+
+INLINE float16 smallest16(float16 a, float16 b, float16 c, float16 d) {
+  const float16 ab = a < b ? a : b, cd = c < d ? c : d;
+  return ab < cd ? ab : cd;
+}
+
+// Reductions over lanes. Where the compiler has them of its own, they become few instructions.
+#if defined(__clang__) && defined(__has_builtin)
+#if __has_builtin(__builtin_reduce_or) && __has_builtin(__builtin_reduce_min)
+#define HAS_REDUCTIONS 1
+#endif
+#endif
+
+#ifdef HAS_REDUCTIONS
+/// True if any (every) lane's mask, all bits set or none, is set.
+INLINE int anyOf8(int8 mask) { return __builtin_reduce_or(mask) < 0; }
+INLINE int anyOf16(int16 mask) { return __builtin_reduce_or(mask) < 0; }
+INLINE int allOf16(int16 mask) { return __builtin_reduce_and(mask) < 0; }
+INLINE uint least8(uint8 v) { return __builtin_reduce_min(v); }
+#else
+INLINE int anyOf8(int8 mask) {
+  const int4 a = mask.lo | mask.hi;
+  const int2 b = a.lo | a.hi;
+  return (b.x | b.y) != 0;
+}
+INLINE int anyOf16(int16 mask) { return anyOf8(mask.lo | mask.hi); }
+INLINE int allOf16(int16 mask) { return !anyOf16(~mask); }
+INLINE uint least8(uint8 v) {
+  const uint4 a = min(v.lo, v.hi);
+  const uint2 b = min(a.lo, a.hi);
+  return min(b.x, b.y);
+}
+#endif
+
+/// Of lanes that are numbers; halving, because a compiler's own reduction takes care of NaN in each step.
+INLINE float greatest16(float16 v) {
+  const float8 a = v.lo > v.hi ? v.lo : v.hi;
+  const float4 b = a.lo > a.hi ? a.lo : a.hi;
+  const float2 c = b.lo > b.hi ? b.lo : b.hi;
+  return c.x > c.y ? c.x : c.y;
+}
+
+INLINE float least16(float16 v) {
+  const float8 a = v.lo < v.hi ? v.lo : v.hi;
+  const float4 b = a.lo < a.hi ? a.lo : a.hi;
+  const float2 c = b.lo < b.hi ? b.lo : b.hi;
+  return c.x < c.y ? c.x : c.y;
 }
 
 /// What a + b lost when it was rounded to `sum`; exact (Knuth's two-sum).

@@ -18,7 +18,7 @@ typedef struct {
   __global const DeviceLight* lights;         // [lights]
   __global const float* background;           // [3 width height] equirectangular
   __global const float* wideNodes;            // [64 nodes] the eight-wide tree (host/bvh/wide_tree.h)
-  __global const float* blocks;               // [88 blocks] its leaves
+  __global const float* leaves;               // [9 triangles + 8] corners of its leaves
   uint triangleCount;
 } SceneView;
 
@@ -28,9 +28,9 @@ typedef struct {
       __global const float *uv1, __global const float *colors, __global const DeviceMaterial *materials,    \
       __global const DeviceTexture *textures, __global const uint *texels,                                  \
       __global const float *linearFromSrgb, __global const DeviceLight *lights,                             \
-      __global const float *backgroundMap, __global const float *wideNodes, __global const float *blocks,   \
+      __global const float *backgroundMap, __global const float *wideNodes, __global const float *leaves,   \
       const uint triangleCount
 
 #define SCENE_VIEW                                                                                           \
   {nodes, triangles, corners, normals, tangents, uv0, uv1, colors, materials, textures, texels,              \
-   linearFromSrgb, lights, backgroundMap, wideNodes, blocks, triangleCount}
+   linearFromSrgb, lights, backgroundMap, wideNodes, leaves, triangleCount}

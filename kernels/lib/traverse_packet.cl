@@ -1,323 +1,426 @@
-// Searches for eight neighbouring rays at once, one in each lane of a float8: a CPU's vector unit then tests eight rays
-// against each box and triangle. The arithmetic of a lane is that of the single-ray search, bit for bit, so the two agree.
-#include "lib/traverse_single.cl"
+// Searches for sixteen neighbouring rays at once, one in each lane of a float16. The arithmetic of a lane is that of the
+// single-ray search, bit for bit, so the two agree.
+//
+// Through the eight-wide tree the packet goes down once, as long as its rays run the same way: bounds of its origins and
+// directions are held against eight boxes in the lanes of a float8 (interval arithmetic; Boulos, Wald, Shirley, "Geometric
+// and Arithmetic Culling Methods for Entire Ray Packets", 2006), then sixteen rays against each box that is left, and only
+// triangles whose own boxes the bounds meet are tested. Rays that share no way are walked one by one.
+#include "lib/traverse_wide.cl"
 
 #if HAS(PACKETS)
 
 typedef struct {
-  float8 o[3];
-  float8 d[3];
-  float8 inverse[3];
-  float8 nearBias[3];  // -o/d for near and far planes, wider by more than they are off
-  float8 farBias[3];
-  float8 shear[3];    // sx, sy, sz of each lane's own axes
-  int8 kz;            // largest axis of the direction
-  int axes[3];        // 1: some lane has this axis
-  int nearPlane[3];   // 0: lo is the near plane, 6: hi; where all lanes agree
-  int regular;        // 1: they agree on all three axes, and no direction is parallel to one
+  float16 o[3];
+  float16 d[3];
+  float16 inverse[3];
+  float16 shear[3];  // sx, sy, sz of each lane's own axes
+  int16 kz;          // largest axis of the direction
+  int axes[3];       // 1: some lane has this axis
 } Packet;
 
 typedef struct {
-  float8 t;  // nearest so far; -inf: lane asleep
-  uint8 triangle, primitive;
-  float8 b1, b2;
+  float16 t;  // nearest so far; < 0: lane asleep
+  uint16 triangle;
+  float16 v, w, det;  // areas: the barycentrics b1 and b2 are v/det and w/det
 } PacketHit;
 
-/// True if any lane's mask (all bits set or none) is set. Where the compiler has a reduction of its own it becomes one
-/// instruction.
-#if defined(__clang__) && defined(__has_builtin)
-#if __has_builtin(__builtin_reduce_or)
-#define HAS_REDUCTIONS 1
-#endif
-#endif
-INLINE int anyLane(int8 mask) {
-#ifdef HAS_REDUCTIONS
-  return __builtin_reduce_or(mask) < 0;
-#else
-  const int4 a = mask.lo | mask.hi;
-  const int2 b = a.lo | a.hi;
-  return (b.x | b.y) != 0;
-#endif
-}
+INLINE float16 boxInverse16(float16 d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign((float16)(INFINITY), d); }
 
-INLINE int allLanes(int8 mask) {
-#ifdef HAS_REDUCTIONS
-  return __builtin_reduce_and(mask) < 0;
-#else
-  const int4 a = mask.lo & mask.hi;
-  const int2 b = a.lo & a.hi;
-  return (b.x & b.y) != 0;
-#endif
-}
-
-INLINE float8 boxInverse8(float8 d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign((float8)(INFINITY), d); }
-
-INLINE Packet makePacket(float8 ox, float8 oy, float8 oz, float8 dx, float8 dy, float8 dz) {
+INLINE Packet makePacket(const float16* o, const float16* d) {
   Packet p;
-  p.o[0] = ox, p.o[1] = oy, p.o[2] = oz;
-  p.d[0] = dx, p.d[1] = dy, p.d[2] = dz;
-  p.regular = 1;
   for (int a = 0; a < 3; ++a) {
-    p.inverse[a] = boxInverse8(p.d[a]);
-    const int8 negative = !(p.inverse[a] >= 0.0f);
-    const int down = allLanes(negative);
-    p.nearPlane[a] = down ? 6 : 0;
-    if (!down && anyLane(negative)) p.regular = 0;
-    if (anyLane(!(fabs(p.inverse[a]) < INFINITY))) p.regular = 0;
-    const float8 bias = -p.o[a] * p.inverse[a];
-    const float8 margin = fabs(bias) * BIAS_MARGIN;
-    p.nearBias[a] = bias - margin;
-    p.farBias[a] = bias + margin;
+    p.o[a] = o[a];
+    p.d[a] = d[a];
+    p.inverse[a] = boxInverse16(d[a]);
   }
-  const float8 ax = fabs(dx), ay = fabs(dy), az = fabs(dz);
-  const int8 xFirst = (ax > ay) & (ax > az);
-  const int8 yFirst = ~(ax > ay) & (ay > az);
-  p.kz = select(select((int8)(2), (int8)(1), yFirst), (int8)(0), xFirst);
-  p.axes[0] = anyLane(xFirst);
-  p.axes[1] = anyLane(yFirst);
-  p.axes[2] = anyLane(~(xFirst | yFirst));
-  const float8 dkz = select(select(dz, dy, yFirst), dx, xFirst);
-  const float8 dkx = select(select(dx, dz, yFirst), dy, xFirst);
-  const float8 dky = select(select(dy, dx, yFirst), dz, xFirst);
+  const float16 ax = fabs(d[0]), ay = fabs(d[1]), az = fabs(d[2]);
+  const int16 xFirst = (ax > ay) & (ax > az);
+  const int16 yFirst = ~(ax > ay) & (ay > az);
+  p.kz = select(select((int16)(2), (int16)(1), yFirst), (int16)(0), xFirst);
+  p.axes[0] = anyOf16(xFirst);
+  p.axes[1] = anyOf16(yFirst);
+  p.axes[2] = anyOf16(~(xFirst | yFirst));
+  const float16 dkz = select(select(d[2], d[1], yFirst), d[0], xFirst);
+  const float16 dkx = select(select(d[0], d[2], yFirst), d[1], xFirst);
+  const float16 dky = select(select(d[1], d[0], yFirst), d[2], xFirst);
   p.shear[2] = 1.0f / dkz;
   p.shear[0] = dkx * p.shear[2];
   p.shear[1] = dky * p.shear[2];
   return p;
 }
 
-/// Mask of the lanes that enter child c before tMax; entry receives their distances.
-INLINE int8 childEntries(const Packet* p, __global const Node* node, int c, float8 tMax, float8* entry) {
-  float8 enter = (float8)(0.0f), leave = tMax;
-  if (p->regular) {
-    __global const float* box = node->lo[c];  // hi[c] lies 6 floats on
-    const float8 nearX = fma((float8)(box[p->nearPlane[0]]), p->inverse[0], p->nearBias[0]);
-    const float8 nearY = fma((float8)(box[p->nearPlane[1] + 1]), p->inverse[1], p->nearBias[1]);
-    const float8 nearZ = fma((float8)(box[p->nearPlane[2] + 2]), p->inverse[2], p->nearBias[2]);
-    const float8 farX = fma((float8)(box[6 - p->nearPlane[0]]), p->inverse[0], p->farBias[0]);
-    const float8 farY = fma((float8)(box[6 - p->nearPlane[1] + 1]), p->inverse[1], p->farBias[1]);
-    const float8 farZ = fma((float8)(box[6 - p->nearPlane[2] + 2]), p->inverse[2], p->farBias[2]);
-    enter = largest8(nearX, nearY, nearZ, enter);
-    leave = smallest8(farX, farY, farZ, leave);
-  } else {
-    for (int a = 0; a < 3; ++a) {
-      const float8 lo = (node->lo[c][a] - p->o[a]) * p->inverse[a];
-      const float8 hi = (node->hi[c][a] - p->o[a]) * p->inverse[a];
-      const int8 down = as_int8(p->inverse[a]);  // select reads the sign bit
-      const float8 near = select(lo, hi, down);
-      const float8 far = select(hi, lo, down);
-      enter = near > enter ? near : enter;
-      leave = far < leave ? far : leave;
-    }
-  }
-  *entry = enter;
-  return enter <= leave * FAR_WIDENING;
-}
-
-/// Lanes with NaN or infinite parts sleep.
-INLINE float8 wakeFinite(const Packet* p, float8 tMax) {
-  int8 finite = isfinite(p->o[0]) & isfinite(p->o[1]) & isfinite(p->o[2]);
+/// tMax, but < 0 in lanes with NaN or infinite parts.
+INLINE float16 wakeFinite(const Packet* p, float16 tMax) {
+  int16 finite = isfinite(p->o[0]) & isfinite(p->o[1]) & isfinite(p->o[2]);
   finite &= isfinite(p->d[0]) & isfinite(p->d[1]) & isfinite(p->d[2]);
-  return select((float8)(-1.0f), tMax, finite);
+  return select((float16)(-1.0f), tMax, finite);
 }
 
-/// Lanes whose largest axis is kz and that meet the triangle at 0 < t <= tMax.
-INLINE int8 intersectAxis(const Packet* p, __global const DeviceTriangle* triangle, int kz, float8 tMax, float8* t, float8* b1,
-                   float8* b2) {
-  const int kx = kz == 2 ? 0 : kz + 1;
-  const int ky = kx == 2 ? 0 : kx + 1;
-  const float8 ox = p->o[kx], oy = p->o[ky], oz = p->o[kz];
-  const float8 sx = -p->shear[0], sy = -p->shear[1];
-  const float8 az = triangle->v[0][kz] - oz;
-  const float8 bz = triangle->v[1][kz] - oz;
-  const float8 cz = triangle->v[2][kz] - oz;
-  const float8 ax = fma(sx, az, triangle->v[0][kx] - ox);
-  const float8 ay = fma(sy, az, triangle->v[0][ky] - oy);
-  const float8 bx = fma(sx, bz, triangle->v[1][kx] - ox);
-  const float8 by = fma(sy, bz, triangle->v[1][ky] - oy);
-  const float8 cx = fma(sx, cz, triangle->v[2][kx] - ox);
-  const float8 cy = fma(sy, cz, triangle->v[2][ky] - oy);
-  const float8 u = differenceOfProducts8(cx, by, cy, bx);
-  const float8 v = differenceOfProducts8(ax, cy, ay, cx);
-  const float8 w = differenceOfProducts8(bx, ay, by, ax);
-  int8 inside = ((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f));
+/// Lanes whose largest axis is kz and that meet a triangle at 0 < t <= tMax. Its coordinates: corner k, axis a at
+/// triangle[(3 k + a) stride].
+INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint stride, int kz, float16 tMax, float16* t,
+                           float16* areaV, float16* areaW, float16* area) {
+  const uint kx = kz == 2 ? 0 : kz + 1;
+  const uint ky = kx == 2 ? 0 : kx + 1;
+  const float16 ox = p->o[kx], oy = p->o[ky], oz = p->o[kz];
+  const float16 sx = -p->shear[0], sy = -p->shear[1];
+  const float16 az = triangle[(0 + kz) * stride] - oz;
+  const float16 bz = triangle[(3 + kz) * stride] - oz;
+  const float16 cz = triangle[(6 + kz) * stride] - oz;
+  const float16 ax = fma(sx, az, triangle[(0 + kx) * stride] - ox);
+  const float16 ay = fma(sy, az, triangle[(0 + ky) * stride] - oy);
+  const float16 bx = fma(sx, bz, triangle[(3 + kx) * stride] - ox);
+  const float16 by = fma(sy, bz, triangle[(3 + ky) * stride] - oy);
+  const float16 cx = fma(sx, cz, triangle[(6 + kx) * stride] - ox);
+  const float16 cy = fma(sy, cz, triangle[(6 + ky) * stride] - oy);
+  const float16 u = differenceOfProducts16(cx, by, cy, bx);
+  const float16 v = differenceOfProducts16(ax, cy, ay, cx);
+  const float16 w = differenceOfProducts16(bx, ay, by, ax);
+  int16 inside = ((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f));
   inside &= p->kz == kz;
-  if (!anyLane(inside)) return inside;
-  const float8 det = u + v + w;
+  if (!anyOf16(inside)) return inside;
+  const float16 det = u + v + w;
   *t = fma(u, az, fma(v, bz, w * cz)) * p->shear[2] / det;
-  *b1 = v / det;
-  *b2 = w / det;
+  *areaV = v, *areaW = w, *area = det;
   return inside & (*t > 0.0f) & (*t <= tMax);
 }
 
 /// All lanes against one triangle; merges the axes that occur in the packet.
-INLINE int8 intersectPacket(const Packet* p, __global const DeviceTriangle* triangle, float8 tMax, float8* t, float8* b1, float8* b2) {
-  int8 met = (int8)(0);
+INLINE int16 intersectPacket(const Packet* p, __global const float* triangle, uint stride, float16 tMax, float16* t,
+                             float16* v, float16* w, float16* det) {
+  int16 met = (int16)(0);
 #pragma unroll
   for (int kz = 0; kz < 3; ++kz) {
     if (!p->axes[kz]) continue;
-    float8 tk, b1k, b2k;
-    const int8 m = intersectAxis(p, triangle, kz, tMax, &tk, &b1k, &b2k);
-    if (!anyLane(m)) continue;
+    float16 tk, vk, wk, detk;
+    const int16 m = intersectAxis(p, triangle, stride, kz, tMax, &tk, &vk, &wk, &detk);
+    if (!anyOf16(m)) continue;
     *t = select(*t, tk, m);
-    *b1 = select(*b1, b1k, m);
-    *b2 = select(*b2, b2k, m);
+    *v = select(*v, vk, m);
+    *w = select(*w, wk, m);
+    *det = select(*det, detk, m);
     met |= m;
   }
   return met;
 }
 
-INLINE void testNearestPacket(const SceneView* scene, const Packet* p, uint index, PacketHit* best) {
-  __global const DeviceTriangle* triangle = scene->triangles + index;
-  float8 t = (float8)(0.0f), b1 = (float8)(0.0f), b2 = (float8)(0.0f);
-  int8 met = intersectPacket(p, triangle, best->t, &t, &b1, &b2);
-  if (!anyLane(met)) return;
-  met &= (t < best->t) | as_int8(triangle->primitive < best->primitive);
+/// The lanes of `ties` in which triangle `index` comes before the one held.
+int16 firstOfTies(const SceneView* scene, uint index, int16 ties, uint16 held) {
+  int lanes[PACKET_RAYS];
+  uint other[PACKET_RAYS];
+  vstore16(ties, 0, lanes);
+  vstore16(held, 0, other);
+  for (int i = 0; i < PACKET_RAYS; ++i) lanes[i] = lanes[i] && comesFirst(scene, index, other[i]) ? -1 : 0;
+  return vload16(0, lanes);
+}
+
 #if HAS(ALPHA_MASK)
-  if (triangle->flags & TRIANGLE_MASKED) {
-    int lanes[8];
-    float b1s[8], b2s[8];
-    vstore8(met, 0, lanes);
-    vstore8(b1, 0, b1s);
-    vstore8(b2, 0, b2s);
-    for (int i = 0; i < 8; ++i)
-      if (lanes[i] && !passesAlphaMask(scene, index, b1s[i], b2s[i])) lanes[i] = 0;
-    met = vload8(0, lanes);
-  }
+/// The lanes of `met` whose hit with triangle `index` (leaf order) is not cut out.
+int16 passAlphaMask(const SceneView* scene, uint index, int16 met, float16 b1, float16 b2) {
+  if (!(scene->triangles[index].flags & TRIANGLE_MASKED)) return met;
+  int lanes[PACKET_RAYS];
+  float b1s[PACKET_RAYS], b2s[PACKET_RAYS];
+  vstore16(met, 0, lanes);
+  vstore16(b1, 0, b1s);
+  vstore16(b2, 0, b2s);
+  for (int i = 0; i < PACKET_RAYS; ++i)
+    if (lanes[i] && !passesAlphaMask(scene, index, b1s[i], b2s[i])) lanes[i] = 0;
+  return vload16(0, lanes);
+}
+#endif
+
+/// 1 if a lane found something nearer.
+INLINE int testNearestPacket(const SceneView* scene, const Packet* p, __global const float* triangle, uint stride, uint index,
+                             PacketHit* best) {
+  float16 t = (float16)(0.0f), v = t, w = t, det = t;
+  int16 met = intersectPacket(p, triangle, stride, best->t, &t, &v, &w, &det);
+  if (!anyOf16(met)) return 0;
+  const int16 ties = met & (t == best->t);
+  if (anyOf16(ties)) met &= ~ties | firstOfTies(scene, index, ties, best->triangle);
+#if HAS(ALPHA_MASK)
+  met = passAlphaMask(scene, index, met, v / det, w / det);
 #endif
   best->t = select(best->t, t, met);
-  best->b1 = select(best->b1, b1, met);
-  best->b2 = select(best->b2, b2, met);
-  best->triangle = select(best->triangle, (uint8)(index), as_uint8(met));
-  best->primitive = select(best->primitive, (uint8)(triangle->primitive), as_uint8(met));
+  best->v = select(best->v, v, met);
+  best->w = select(best->w, w, met);
+  best->det = select(best->det, det, met);
+  best->triangle = select(best->triangle, (uint16)(index), as_uint16(met));
+  return 1;
 }
 
-/// Shadow lanes against one triangle; returns the lanes whose light is now blocked. stops: [3][8], see testOcclusion.
-INLINE int8 testOcclusionPacket(const SceneView* scene, const Packet* p, uint index, float8 tMax, uint* stops) {
-  __global const DeviceTriangle* triangle = scene->triangles + index;
-  float8 t = (float8)(0.0f), b1 = (float8)(0.0f), b2 = (float8)(0.0f);
-  int8 met = intersectPacket(p, triangle, tMax, &t, &b1, &b2);
-  met &= t < tMax;
 #if HAS(FILTERED_SHADOWS) || HAS(ALPHA_MASK)
-  if (anyLane(met) && (triangle->flags & (TRIANGLE_FILTERS | TRIANGLE_MASKED))) {
-    int lanes[8];
-    float dx[8], dy[8], dz[8], ox[8], oy[8], oz[8], ends[8];
-    vstore8(met, 0, lanes);
-    vstore8(p->d[0], 0, dx);
-    vstore8(p->d[1], 0, dy);
-    vstore8(p->d[2], 0, dz);
-    vstore8(p->o[0], 0, ox);
-    vstore8(p->o[1], 0, oy);
-    vstore8(p->o[2], 0, oz);
-    vstore8(tMax, 0, ends);
-    for (int i = 0; i < 8; ++i) {
-      if (!lanes[i]) continue;
-      const Ray r = makeRay((float3)(ox[i], oy[i], oz[i]), (float3)(dx[i], dy[i], dz[i]));
-      uint own[3] = {stops[i], stops[8 + i], stops[16 + i]};
-      if (!testOcclusion(scene, &r, index, ends[i], own)) lanes[i] = 0;
-      stops[i] = own[0], stops[8 + i] = own[1], stops[16 + i] = own[2];
-    }
-    met = vload8(0, lanes);
+/// The lanes of `met` that triangle `index` (leaf order) blocks; the others may be dimmed. stops: [3][16], see testOcclusion.
+int16 filterOcclusion(const SceneView* scene, const Packet* p, uint index, int16 met, float16 tMax, uint* stops) {
+  if (!(scene->triangles[index].flags & (TRIANGLE_FILTERS | TRIANGLE_MASKED))) return met;
+  int lanes[PACKET_RAYS];
+  float o[3][PACKET_RAYS], d[3][PACKET_RAYS], ends[PACKET_RAYS];
+  vstore16(met, 0, lanes);
+  vstore16(tMax, 0, ends);
+  for (int a = 0; a < 3; ++a) {
+    vstore16(p->o[a], 0, o[a]);
+    vstore16(p->d[a], 0, d[a]);
   }
+  for (int i = 0; i < PACKET_RAYS; ++i) {
+    if (!lanes[i]) continue;
+    const Ray r = makeRay((float3)(o[0][i], o[1][i], o[2][i]), (float3)(d[0][i], d[1][i], d[2][i]));
+    uint own[3];
+    for (int k = 0; k < 3; ++k) own[k] = stops[k * PACKET_RAYS + i];
+    if (!testOcclusion(scene, &r, index, ends[i], own)) lanes[i] = 0;
+    for (int k = 0; k < 3; ++k) stops[k * PACKET_RAYS + i] = own[k];
+  }
+  return vload16(0, lanes);
+}
 #endif
-  return met;
+
+/// Shadow lanes against one triangle: tMax becomes -inf where the light is now blocked. stops: [3][16], see testOcclusion.
+/// 1 if a lane met it.
+INLINE int testOcclusionPacket(const SceneView* scene, const Packet* p, __global const float* triangle, uint stride, uint index,
+                               float16* tMax, uint* stops) {
+  float16 t = (float16)(0.0f), v = t, w = t, det = t;
+  int16 met = intersectPacket(p, triangle, stride, *tMax, &t, &v, &w, &det);
+  met &= t < *tMax;
+  if (!anyOf16(met)) return 0;
+#if HAS(FILTERED_SHADOWS) || HAS(ALPHA_MASK)
+  met = filterOcclusion(scene, p, index, met, *tMax, stops);
+#endif
+  *tMax = select(*tMax, (float16)(-INFINITY), met);
+  return 1;
 }
 
-#if HAS(TREE)
-PacketHit nearestPacket(const SceneView* scene, const Packet* p, float8 tMax) {
-  PacketHit best;
-  best.t = wakeFinite(p, tMax);
-  best.triangle = (uint8)(NO_HIT);
-  best.primitive = (uint8)(NO_HIT);
-  best.b1 = best.b2 = (float8)(0.0f);
-  int stack[MAX_TREE_DEPTH + 4];
-  int depth = 0;
-  int current = 0;
-  for (;;) {
-    if (current < 0) {
-      const uint packed = (uint)~current;
-      const uint first = packed >> 4, count = (packed & 15u) + 1;
-      for (uint i = first; i < first + count; ++i) testNearestPacket(scene, p, i, &best);
-    } else {
-      __global const Node* node = scene->nodes + current;
-      float8 t0, t1;
-      const int8 hit0 = childEntries(p, node, 0, best.t, &t0);
-      const int8 hit1 = childEntries(p, node, 1, best.t, &t1);
-      const int any0 = anyLane(hit0), any1 = anyLane(hit1);
-      if (any0 && any1) {
-        const int secondFirst = anyLane(hit0 & hit1 & (t1 < t0));
-        stack[depth++] = node->child[1 - secondFirst];
-        current = node->child[secondFirst];
-        continue;
-      }
-      if (any0 || any1) {
-        current = node->child[any1];
-        continue;
-      }
-    }
-    if (depth == 0) return best;
-    current = stack[--depth];
-  }
+#if !HAS(TREE)
+
+void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
+  best->t = wakeFinite(p, best->t);
+  for (uint i = 0; i < scene->triangleCount; ++i)
+    testNearestPacket(scene, p, &scene->triangles[i].v[0][0], 1, i, best);
 }
 
-/// stops: [3][8]. Returns the mask of blocked lanes. Lanes with tMax < 0 sleep.
-int8 occludedPacket(const SceneView* scene, const Packet* p, float8 tMax, uint* stops) {
-  int8 blocked = (int8)(0);
-  tMax = wakeFinite(p, tMax);
-  int stack[MAX_TREE_DEPTH + 4];
-  int depth = 0;
-  int current = 0;
-  for (;;) {
-    if (current < 0) {
-      const uint packed = (uint)~current;
-      const uint first = packed >> 4, count = (packed & 15u) + 1;
-      for (uint i = first; i < first + count; ++i) {
-        const int8 now = testOcclusionPacket(scene, p, i, tMax, stops);
-        blocked |= now;
-        tMax = select(tMax, (float8)(-INFINITY), now);
-      }
-      if (allLanes(tMax < 0.0f)) return blocked;
-    } else {
-      __global const Node* node = scene->nodes + current;
-      float8 t0, t1;
-      const int8 hit0 = childEntries(p, node, 0, tMax, &t0);
-      const int8 hit1 = childEntries(p, node, 1, tMax, &t1);
-      const int any0 = anyLane(hit0), any1 = anyLane(hit1);
-      if (any0 && any1) {
-        const int secondFirst = anyLane(hit0 & hit1 & (t1 < t0));
-        stack[depth++] = node->child[1 - secondFirst];
-        current = node->child[secondFirst];
-        continue;
-      }
-      if (any0 || any1) {
-        current = node->child[any1];
-        continue;
-      }
-    }
-    if (depth == 0) return blocked;
-    current = stack[--depth];
-  }
+void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint* stops) {
+  *tMax = wakeFinite(p, *tMax);
+  for (uint i = 0; i < scene->triangleCount; ++i)
+    if (testOcclusionPacket(scene, p, &scene->triangles[i].v[0][0], 1, i, tMax, stops) && allOf16(*tMax < 0.0f)) return;
 }
+
 #else
-PacketHit nearestPacket(const SceneView* scene, const Packet* p, float8 tMax) {
-  PacketHit best;
-  best.t = wakeFinite(p, tMax);
-  best.triangle = (uint8)(NO_HIT);
-  best.primitive = (uint8)(NO_HIT);
-  best.b1 = best.b2 = (float8)(0.0f);
-  for (uint i = 0; i < scene->triangleCount; ++i) testNearestPacket(scene, p, i, &best);
-  return best;
+
+/// Bounds of a packet: what can make the distance to a plane least and greatest.
+typedef struct {
+  float nearOrigin[3];  // origin for which the near plane's distance is least
+  float farOrigin[3];   // origin for which the far plane's distance is greatest
+  float inverseLo[3], inverseHi[3];
+  int nearPlane[3];  // floats from a node to its near planes: 8 · axis, and 24 for hi
+  int down[3];       // 1: directions are negative
+  int together;      // 1: the rays run the same way, no direction parallel to an axis
+} PacketBounds;
+
+/// Largest difference between directions along an axis for which rays run the same way (measured: 0.1 to 1 make little
+/// difference, because rays rarely lie between).
+#define PACKET_SPREAD 0.25f
+
+INLINE PacketBounds boundPacket(const Packet* p) {
+  PacketBounds b;
+  b.together = 1;
+  for (int a = 0; a < 3; ++a) {
+    const float lo = least16(p->o[a]), hi = greatest16(p->o[a]);
+    b.inverseLo[a] = least16(p->inverse[a]);
+    b.inverseHi[a] = greatest16(p->inverse[a]);
+    b.down[a] = b.inverseHi[a] < 0.0f;
+    b.nearOrigin[a] = b.down[a] ? lo : hi;
+    b.farOrigin[a] = b.down[a] ? hi : lo;
+    b.nearPlane[a] = a * 8 + 24 * b.down[a];
+    if (!(b.inverseLo[a] > 0.0f || b.inverseHi[a] < 0.0f)) b.together = 0;
+    if (!(b.inverseLo[a] > -INFINITY && b.inverseHi[a] < INFINITY)) b.together = 0;
+    if (!(fabs(greatest16(p->d[a]) - least16(p->d[a])) <= PACKET_SPREAD)) b.together = 0;
+  }
+  // 0 but for lanes with NaN or infinite parts: those go alone.
+  const float16 zero = (p->o[0] - p->o[0]) + (p->o[1] - p->o[1]) + (p->o[2] - p->o[2]) + (p->d[0] - p->d[0]) +
+                       (p->d[1] - p->d[1]) + (p->d[2] - p->d[2]);
+  if (!allOf16(zero == 0.0f)) b.together = 0;
+  return b;
 }
 
-int8 occludedPacket(const SceneView* scene, const Packet* p, float8 tMax, uint* stops) {
-  int8 blocked = (int8)(0);
-  tMax = wakeFinite(p, tMax);
-  for (uint i = 0; i < scene->triangleCount; ++i) {
-    const int8 now = testOcclusionPacket(scene, p, i, tMax, stops);
-    blocked |= now;
-    tMax = select(tMax, (float8)(-INFINITY), now);
-    if (allLanes(tMax < 0.0f)) break;
+/// Distances of the planes `at` from `origin`, the least and the greatest for the directions of a packet.
+INLINE float8 leastDistance(float8 at, float origin, float inverseLo, float inverseHi) {
+  const float8 along = at - origin;
+  const float8 a = along * inverseLo, b = along * inverseHi;
+  return a < b ? a : b;
+}
+
+INLINE float8 greatestDistance(float8 at, float origin, float inverseLo, float inverseHi) {
+  const float8 along = at - origin;
+  const float8 a = along * inverseLo, b = along * inverseHi;
+  return a > b ? a : b;
+}
+
+/// Eight boxes (near and far planes): mask of those that some ray of the packet may enter before tMax, and the least
+/// distance at which. Rounding is monotonic, so whatever a single ray's test lets in is let in here.
+INLINE int8 packetEntries(const PacketBounds* b, const float8* near, const float8* far, float tMax, float8* entry) {
+  const float8 nearX = leastDistance(near[0], b->nearOrigin[0], b->inverseLo[0], b->inverseHi[0]);
+  const float8 nearY = leastDistance(near[1], b->nearOrigin[1], b->inverseLo[1], b->inverseHi[1]);
+  const float8 nearZ = leastDistance(near[2], b->nearOrigin[2], b->inverseLo[2], b->inverseHi[2]);
+  const float8 farX = greatestDistance(far[0], b->farOrigin[0], b->inverseLo[0], b->inverseHi[0]);
+  const float8 farY = greatestDistance(far[1], b->farOrigin[1], b->inverseLo[1], b->inverseHi[1]);
+  const float8 farZ = greatestDistance(far[2], b->farOrigin[2], b->inverseLo[2], b->inverseHi[2]);
+  const float8 enter = largest8(nearX, nearY, nearZ, (float8)(0.0f));
+  const float8 leave = smallest8(farX, farY, farZ, (float8)(tMax));
+  *entry = enter;
+  return enter <= leave * FAR_WIDENING;
+}
+
+INLINE int8 packetChildren(const PacketBounds* b, __global const float* node, float tMax, float8* entry) {
+  float8 near[3], far[3];
+  for (int a = 0; a < 3; ++a) {
+    near[a] = vload8(0, node + b->nearPlane[a]);
+    far[a] = vload8(0, node + (24 + 16 * a) - b->nearPlane[a]);
   }
-  return blocked;
+  return packetEntries(b, near, far, tMax, entry);
+}
+
+/// True if some ray of the packet enters lane `child` of a node before its own tMax. For packets that run together.
+INLINE int entersChild(const Packet* p, const PacketBounds* b, float16 tMax, __global const float* node, uint child) {
+  __global const float* box = node + child;
+  const float16 nearX = (box[b->nearPlane[0]] - p->o[0]) * p->inverse[0];
+  const float16 nearY = (box[b->nearPlane[1]] - p->o[1]) * p->inverse[1];
+  const float16 nearZ = (box[b->nearPlane[2]] - p->o[2]) * p->inverse[2];
+  const float16 farX = (box[24 - b->nearPlane[0]] - p->o[0]) * p->inverse[0];
+  const float16 farY = (box[40 - b->nearPlane[1]] - p->o[1]) * p->inverse[1];
+  const float16 farZ = (box[56 - b->nearPlane[2]] - p->o[2]) * p->inverse[2];
+  const float16 enter = largest16(nearX, nearY, nearZ, (float16)(0.0f));
+  const float16 leave = smallest16(farX, farY, farZ, tMax);
+  return anyOf16(enter <= leave * FAR_WIDENING);
+}
+
+/// Triangles of a leaf whose own boxes the packet may meet.
+INLINE uint packetTriangles(const PacketBounds* b, const Leaf* leaf, float tMax) {
+  float8 near[3], far[3];
+  for (int a = 0; a < 3; ++a) {
+    const float8 v0 = leafPlane(leaf, 0, a), v1 = leafPlane(leaf, 1, a), v2 = leafPlane(leaf, 2, a);
+    float8 lo = v0 < v1 ? v0 : v1, hi = v0 < v1 ? v1 : v0;
+    lo = v2 < lo ? v2 : lo;
+    hi = v2 > hi ? v2 : hi;
+    near[a] = b->down[a] ? hi : lo;
+    far[a] = b->down[a] ? lo : hi;
+  }
+  float8 entry;
+  return laneBits(packetEntries(b, near, far, tMax, &entry)) & leafLanes(leaf);
+}
+
+INLINE RayTable tableOf(const Packet* p, float16 tMax) {
+  RayTable rays;
+  for (int a = 0; a < 3; ++a) {
+    vstore16(p->o[a], 0, rays.o[a]);
+    vstore16(p->d[a], 0, rays.d[a]);
+  }
+  for (int a = 0; a < 3; ++a) {
+    vstore16(p->inverse[a], 0, rays.inverse[a]);
+    vstore16(p->shear[a], 0, rays.shear[a]);
+  }
+  vstore16(p->kz, 0, rays.kz);
+  vstore16(wakeFinite(p, tMax), 0, rays.t);
+  return rays;
+}
+
+/// best: t < 0 in lanes that sleep, MAXFLOAT in the others, nothing met (det 1).
+void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
+  const PacketBounds bounds = boundPacket(p);
+  if (!bounds.together) {
+    RayTable rays = tableOf(p, best->t);
+    nearestApart(scene, &rays);
+    best->t = vload16(0, rays.t);
+    best->triangle = vload16(0, rays.triangle);
+    best->v = vload16(0, rays.b1);
+    best->w = vload16(0, rays.b2);
+    return;
+  }
+  // As a single ray's way (Walk), but that a child is looked at more closely before it is visited.
+  uint waiting[8 * WIDE_DEPTH];
+  int groups[WIDE_DEPTH];
+  int depth = 0, group = 0;
+  float tMax = greatest16(best->t);
+  uint limit = keyLimit(tMax);
+  float8 entry;
+  uint8 keys = childKeys(packetChildren(&bounds, scene->wideNodes, tMax, &entry), entry);
+  for (;;) {
+    const uint least = least8(keys);
+    if (least > limit) {
+      if (depth == 0) return;
+      --depth;
+      keys = vload8(depth, waiting);
+      group = groups[depth];
+      continue;
+    }
+    keys = select(keys, (uint8)(NO_CHILD), as_uint8(keys == least));
+    __global const float* node = scene->wideNodes + (size_t)group * WIDE_NODE_FLOATS;
+    if (!entersChild(p, &bounds, best->t, node, least & 7u)) continue;
+    const int child = as_int(node[48 + (least & 7u)]);
+    if (child < 0) {
+      const Leaf leaf = leafOf(scene, child);
+      int met = 0;
+      for (uint bits = packetTriangles(&bounds, &leaf, tMax); bits != 0; bits &= bits - 1) {
+        const uint lane = lowestBit(bits);
+        met |= testNearestPacket(scene, p, leaf.corners + lane, leaf.count, leaf.first + lane, best);
+      }
+      if (met) {
+        tMax = greatest16(best->t);
+        limit = keyLimit(tMax);
+      }
+      continue;
+    }
+    const int8 entered = packetChildren(&bounds, scene->wideNodes + (size_t)child * WIDE_NODE_FLOATS, tMax, &entry);
+    vstore8(keys, depth, waiting);
+    groups[depth] = group;
+    depth += anyOf8(keys != NO_CHILD);
+    keys = childKeys(entered, entry);
+    group = child;
+  }
+}
+
+/// tMax: lengths, < 0 in lanes that sleep; -inf afterwards where the light is blocked. stops: [3][16].
+void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint* stops) {
+  const PacketBounds bounds = boundPacket(p);
+  if (!bounds.together) {
+    RayTable rays = tableOf(p, *tMax);
+    occludedApart(scene, &rays, stops);
+    *tMax = vload16(0, rays.t);
+    return;
+  }
+  uchar waiting[WIDE_DEPTH];
+  int groups[WIDE_DEPTH];
+  int depth = 0, group = 0;
+  float end = greatest16(*tMax);
+  float8 entry;
+  uint bits = laneBits(packetChildren(&bounds, scene->wideNodes, end, &entry));
+  for (;;) {
+    while (bits == 0) {
+      if (depth == 0) return;
+      --depth;
+      bits = waiting[depth];
+      group = groups[depth];
+    }
+    __global const float* node = scene->wideNodes + (size_t)group * WIDE_NODE_FLOATS;
+    const uint at = lowestBit(bits);
+    bits &= bits - 1;
+    if (!entersChild(p, &bounds, *tMax, node, at)) continue;
+    const int child = as_int(node[48 + at]);
+    if (child < 0) {
+      const Leaf leaf = leafOf(scene, child);
+      int met = 0;
+      for (uint left = packetTriangles(&bounds, &leaf, end); left != 0; left &= left - 1) {
+        const uint lane = lowestBit(left);
+        met |= testOcclusionPacket(scene, p, leaf.corners + lane, leaf.count, leaf.first + lane, tMax, stops);
+      }
+      if (met) {
+        end = greatest16(*tMax);
+        if (end < 0.0f) return;
+      }
+      continue;
+    }
+    waiting[depth] = (uchar)bits;
+    groups[depth] = group;
+    depth += bits != 0;
+    bits = laneBits(packetChildren(&bounds, scene->wideNodes + (size_t)child * WIDE_NODE_FLOATS, end, &entry));
+    group = child;
+  }
 }
 #endif
 

@@ -1,14 +1,39 @@
 // Searches for one ray at a time through the eight-wide tree: one ray against eight boxes, or eight triangles, in the
-// lanes of a float8. For rays that share no way, where a packet would drag seven others along. The arithmetic of a lane is
+// lanes of a float8. For rays that share no way, where a packet would drag the others along. The arithmetic of a lane is
 // that of the other searches, so the answers are the same bits.
-#include "lib/traverse_packet.cl"
+#include "lib/traverse_single.cl"
 
-#if HAS(WIDE)
+/// Ties: true if triangle a has a lower index in the scene than b (both in leaf order), or b is none. Looked up only then:
+/// it is one more line of memory.
+INLINE int comesFirst(const SceneView* scene, uint a, uint b) {
+  return b == NO_HIT || scene->triangles[a].primitive < scene->triangles[b].primitive;
+}
+
+#if HAS(TREE) && HAS(PACKETS)
 
 #define WIDE_NODE_FLOATS 64   // lo[3][8], hi[3][8], child[8], pad
-#define BLOCK_FLOATS 88       // v[3][3][8], primitive[8], first, count, pad
-#define BLOCK_PRIMITIVE 72
-#define BLOCK_FIRST 80
+
+/// Up to eight triangles: first, first + 1, … in leaf order.
+typedef struct {
+  __global const float* corners;  // [3 corners][3 axes][count], m; may be read eight floats beyond
+  uint first, count;
+} Leaf;
+
+INLINE Leaf leafOf(const SceneView* scene, int child) {
+  const uint packed = (uint)~child;
+  Leaf leaf;
+  leaf.first = packed >> 3;
+  leaf.count = (packed & 7u) + 1;
+  leaf.corners = scene->leaves + (size_t)leaf.first * 9;
+  return leaf;
+}
+
+/// One coordinate of one corner of all the leaf's triangles; lanes beyond its count hold others.
+INLINE float8 leafPlane(const Leaf* leaf, int corner, int axis) {
+  return vload8(0, leaf->corners + (uint)(3 * corner + axis) * leaf->count);
+}
+
+INLINE uint leafLanes(const Leaf* leaf) { return (1u << leaf->count) - 1u; }
 
 /// One bit for each lane of a comparison.
 INLINE uint laneBits(int8 mask) {
@@ -22,39 +47,68 @@ INLINE uint laneBits(int8 mask) {
 #endif
 }
 
-INLINE uint lowestBit(uint bits) { return popcount((bits & (0u - bits)) - 1u); }
-
-/// What a ray needs for box tests beside itself.
-typedef struct {
-  float nearBias[3], farBias[3];  // as in Packet
-  int nearPlane[3];               // floats from a node to its planes: 8 · axis, and 24 for hi
-  int regular;                    // 1: no part of the direction is next to 0
-} BoxRay;
-
-INLINE BoxRay makeBoxRay(const Ray* r) {
-  BoxRay b;
-  b.regular = 1;
-  for (int a = 0; a < 3; ++a) {
-    const float bias = -r->o[a] * r->inverse[a], margin = fabs(bias) * BIAS_MARGIN;
-    b.nearBias[a] = bias - margin;
-    b.farBias[a] = bias + margin;
-    b.nearPlane[a] = a * 8 + (r->inverse[a] >= 0.0f ? 0 : 24);
-    if (!(fabs(r->inverse[a]) < INFINITY)) b.regular = 0;
-  }
-  return b;
+INLINE uint lowestBit(uint bits) {
+#ifdef __clang__
+  return (uint)__builtin_ctz(bits);
+#else
+  return popcount((bits & (0u - bits)) - 1u);
+#endif
 }
 
-/// The eight children of a node: bits of those that the ray enters before tMax, and where.
-INLINE uint wideEntries(const Ray* r, const BoxRay* b, __global const float* node, float tMax, float8* entry) {
+/// The rays of a packet: what a search is given and gives back.
+typedef struct {
+  float o[3][PACKET_RAYS], d[3][PACKET_RAYS];
+  float inverse[3][PACKET_RAYS], shear[3][PACKET_RAYS];  // as in Ray: sx, sy, sz
+  int kz[PACKET_RAYS];
+  float t[PACKET_RAYS];  // < 0: asleep; else how far to look, and afterwards the distance of the nearest hit
+  uint triangle[PACKET_RAYS];
+  float b1[PACKET_RAYS], b2[PACKET_RAYS];
+} RayTable;
+
+/// A ray of the table, as its tests want it.
+typedef struct {
+  float o[3], inverse[3];
+  float nearBias[3], farBias[3];  // -o/d for near and far planes, wider by more than they are off
+  int nearPlane[3];               // floats from a node to its planes: 8 · axis, and 24 for hi
+  int regular;                    // 1: no part of the direction is next to 0
+  int kx, ky, kz;
+  float sx, sy, sz;
+  uint lane;  // of the table
+} WideRay;
+
+INLINE WideRay wideRay(const RayTable* rays, uint lane) {
+  WideRay r;
+  r.lane = lane;
+  r.regular = 1;
+  for (int a = 0; a < 3; ++a) {
+    r.o[a] = rays->o[a][lane];
+    r.inverse[a] = rays->inverse[a][lane];
+    const float bias = -r.o[a] * r.inverse[a], margin = fabs(bias) * BIAS_MARGIN;
+    r.nearBias[a] = bias - margin;
+    r.farBias[a] = bias + margin;
+    r.nearPlane[a] = a * 8 + (r.inverse[a] >= 0.0f ? 0 : 24);
+    if (!(fabs(r.inverse[a]) < INFINITY)) r.regular = 0;
+  }
+  r.kz = rays->kz[lane];
+  r.kx = r.kz == 2 ? 0 : r.kz + 1;
+  r.ky = r.kx == 2 ? 0 : r.kx + 1;
+  r.sx = rays->shear[0][lane];
+  r.sy = rays->shear[1][lane];
+  r.sz = rays->shear[2][lane];
+  return r;
+}
+
+/// The eight children of a node: mask of those that the ray enters before tMax, and where.
+INLINE int8 wideEntries(const WideRay* r, __global const float* node, float tMax, float8* entry) {
   float8 enter = (float8)(0.0f), leave = (float8)(tMax);
-  if (b->regular) {
-    const int x = b->nearPlane[0], y = b->nearPlane[1], z = b->nearPlane[2];
-    const float8 nearX = fma(vload8(0, node + x), (float8)(r->inverse[0]), (float8)(b->nearBias[0]));
-    const float8 nearY = fma(vload8(0, node + y), (float8)(r->inverse[1]), (float8)(b->nearBias[1]));
-    const float8 nearZ = fma(vload8(0, node + z), (float8)(r->inverse[2]), (float8)(b->nearBias[2]));
-    const float8 farX = fma(vload8(0, node + 24 - x), (float8)(r->inverse[0]), (float8)(b->farBias[0]));
-    const float8 farY = fma(vload8(0, node + 40 - y), (float8)(r->inverse[1]), (float8)(b->farBias[1]));
-    const float8 farZ = fma(vload8(0, node + 56 - z), (float8)(r->inverse[2]), (float8)(b->farBias[2]));
+  if (r->regular) {
+    const int x = r->nearPlane[0], y = r->nearPlane[1], z = r->nearPlane[2];
+    const float8 nearX = fma(vload8(0, node + x), (float8)(r->inverse[0]), (float8)(r->nearBias[0]));
+    const float8 nearY = fma(vload8(0, node + y), (float8)(r->inverse[1]), (float8)(r->nearBias[1]));
+    const float8 nearZ = fma(vload8(0, node + z), (float8)(r->inverse[2]), (float8)(r->nearBias[2]));
+    const float8 farX = fma(vload8(0, node + 24 - x), (float8)(r->inverse[0]), (float8)(r->farBias[0]));
+    const float8 farY = fma(vload8(0, node + 40 - y), (float8)(r->inverse[1]), (float8)(r->farBias[1]));
+    const float8 farZ = fma(vload8(0, node + 56 - z), (float8)(r->inverse[2]), (float8)(r->farBias[2]));
     enter = largest8(nearX, nearY, nearZ, enter);
     leave = smallest8(farX, farY, farZ, leave);
   } else {
@@ -67,170 +121,259 @@ INLINE uint wideEntries(const Ray* r, const BoxRay* b, __global const float* nod
     }
   }
   *entry = enter;
-  return laneBits(enter <= leave * FAR_WIDENING);
+  return enter <= leave * FAR_WIDENING;
 }
 
-/// The triangles of a block: bits of those met at 0 < t <= tMax; t, b1, b2 of all lanes.
-INLINE uint intersectBlock(const Ray* r, __global const float* block, float tMax, float8* t, float8* b1, float8* b2) {
+/// The triangles of a leaf: bits of those met at 0 < t <= tMax; t of all lanes, and the areas whose ratios v/det and w/det
+/// are the barycentrics b1 and b2.
+INLINE uint intersectLeaf(const WideRay* r, const Leaf* leaf, float tMax, float8* t, float8* areaV, float8* areaW,
+                          float8* area) {
   const float ox = r->o[r->kx], oy = r->o[r->ky], oz = r->o[r->kz];
-  const float8 az = vload8(0, block + (0 + r->kz) * 8) - oz;
-  const float8 bz = vload8(0, block + (3 + r->kz) * 8) - oz;
-  const float8 cz = vload8(0, block + (6 + r->kz) * 8) - oz;
+  const float8 az = leafPlane(leaf, 0, r->kz) - oz;
+  const float8 bz = leafPlane(leaf, 1, r->kz) - oz;
+  const float8 cz = leafPlane(leaf, 2, r->kz) - oz;
   const float8 sx = (float8)(-r->sx), sy = (float8)(-r->sy);
-  const float8 ax = fma(sx, az, vload8(0, block + (0 + r->kx) * 8) - ox);
-  const float8 ay = fma(sy, az, vload8(0, block + (0 + r->ky) * 8) - oy);
-  const float8 bx = fma(sx, bz, vload8(0, block + (3 + r->kx) * 8) - ox);
-  const float8 by = fma(sy, bz, vload8(0, block + (3 + r->ky) * 8) - oy);
-  const float8 cx = fma(sx, cz, vload8(0, block + (6 + r->kx) * 8) - ox);
-  const float8 cy = fma(sy, cz, vload8(0, block + (6 + r->ky) * 8) - oy);
+  const float8 ax = fma(sx, az, leafPlane(leaf, 0, r->kx) - ox);
+  const float8 ay = fma(sy, az, leafPlane(leaf, 0, r->ky) - oy);
+  const float8 bx = fma(sx, bz, leafPlane(leaf, 1, r->kx) - ox);
+  const float8 by = fma(sy, bz, leafPlane(leaf, 1, r->ky) - oy);
+  const float8 cx = fma(sx, cz, leafPlane(leaf, 2, r->kx) - ox);
+  const float8 cy = fma(sy, cz, leafPlane(leaf, 2, r->ky) - oy);
   const float8 u = differenceOfProducts8(cx, by, cy, bx);
   const float8 v = differenceOfProducts8(ax, cy, ay, cx);
   const float8 w = differenceOfProducts8(bx, ay, by, ax);
   const int8 inside = ((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f));
-  if (laneBits(inside) == 0) return 0;
+  const uint lanes = laneBits(inside) & leafLanes(leaf);
+  if (lanes == 0) return 0;
   const float8 det = u + v + w;
   *t = fma(u, az, fma(v, bz, w * cz)) * r->sz / det;
-  *b1 = v / det;
-  *b2 = w / det;
-  return laneBits(inside & (*t > 0.0f) & (*t <= tMax));
+  *areaV = v, *areaW = w, *area = det;
+  return lanes & laneBits((*t > 0.0f) & (*t <= tMax));
 }
 
-INLINE void testNearestBlock(const SceneView* scene, const Ray* r, __global const float* block, Hit* best) {
-  float8 t8, b18, b28;
-  uint bits = intersectBlock(r, block, best->t, &t8, &b18, &b28);
+INLINE void testNearestLeaf(const SceneView* scene, const WideRay* r, int child, Hit* best) {
+  const Leaf leaf = leafOf(scene, child);
+  float8 t8, v8, w8, det8;
+  uint bits = intersectLeaf(r, &leaf, best->t, &t8, &v8, &w8, &det8);
   if (bits == 0) return;
-  float t[8], b1[8], b2[8];
+  float t[8], v[8], w[8], det[8];
   vstore8(t8, 0, t);
-  vstore8(b18, 0, b1);
-  vstore8(b28, 0, b2);
-  const uint first = as_uint(block[BLOCK_FIRST]);
+  vstore8(v8, 0, v);
+  vstore8(w8, 0, w);
+  vstore8(det8, 0, det);
   for (; bits != 0; bits &= bits - 1) {
-    const uint lane = lowestBit(bits);
-    const uint primitive = as_uint(block[BLOCK_PRIMITIVE + lane]);
-    if (t[lane] > best->t || (t[lane] == best->t && primitive > best->primitive)) continue;
+    const uint lane = lowestBit(bits), index = leaf.first + lane;
+    if (t[lane] > best->t || (t[lane] == best->t && !comesFirst(scene, index, best->triangle))) continue;
+    const float b1 = v[lane] / det[lane], b2 = w[lane] / det[lane];
 #if HAS(ALPHA_MASK)
-    if ((scene->triangles[first + lane].flags & TRIANGLE_MASKED) && !passesAlphaMask(scene, first + lane, b1[lane], b2[lane]))
-      continue;
+    if ((scene->triangles[index].flags & TRIANGLE_MASKED) && !passesAlphaMask(scene, index, b1, b2)) continue;
 #endif
     best->t = t[lane];
-    best->b1 = b1[lane];
-    best->b2 = b2[lane];
-    best->triangle = first + lane;
-    best->primitive = primitive;
+    best->b1 = b1;
+    best->b2 = b2;
+    best->triangle = index;
   }
 }
 
-/// 1 once the light is blocked.
-INLINE int testOcclusionBlock(const SceneView* scene, const Ray* r, __global const float* block, float tMax, uint* stops) {
-  float8 t8, b18, b28;
-  uint bits = intersectBlock(r, block, tMax, &t8, &b18, &b28);
+/// 1 once the light is blocked. stops: [3], see testOcclusion.
+INLINE int testOcclusionLeaf(const SceneView* scene, const RayTable* rays, const WideRay* r, int child, float tMax,
+                             uint* stops) {
+  const Leaf leaf = leafOf(scene, child);
+  float8 t8, v8, w8, det8;
+  uint bits = intersectLeaf(r, &leaf, tMax, &t8, &v8, &w8, &det8);
   if (bits == 0) return 0;
 #if HAS(FILTERED_SHADOWS) || HAS(ALPHA_MASK)
-  const uint first = as_uint(block[BLOCK_FIRST]);
+  const Ray whole = makeRay((float3)(rays->o[0][r->lane], rays->o[1][r->lane], rays->o[2][r->lane]),
+                            (float3)(rays->d[0][r->lane], rays->d[1][r->lane], rays->d[2][r->lane]));
   for (; bits != 0; bits &= bits - 1)
-    if (testOcclusion(scene, r, first + lowestBit(bits), tMax, stops)) return 1;
+    if (testOcclusion(scene, &whole, leaf.first + lowestBit(bits), tMax, stops)) return 1;
   return 0;
 #else
   return (bits & laneBits(t8 < tMax)) != 0;
 #endif
 }
 
-Hit nearestWide(const SceneView* scene, const Ray* r) {
-  Hit best = {MAXFLOAT, NO_HIT, NO_HIT, 0.0f, 0.0f};
-  if (!isFiniteRay(r)) return best;
-  const BoxRay box = makeBoxRay(r);
-  int waiting[WIDE_STACK];
-  float entries[WIDE_STACK];
-  int depth = 0;
-  int current = 0;
-  for (;;) {
-    if (current < 0) {
-      testNearestBlock(scene, r, scene->blocks + (size_t)~current * BLOCK_FLOATS, &best);
-    } else {
-      __global const float* node = scene->wideNodes + (size_t)current * WIDE_NODE_FLOATS;
-      __global const int* child = (__global const int*)(node + 48);
-      float8 entry8;
-      uint bits = wideEntries(r, &box, node, best.t, &entry8);
-      if (bits != 0) {
-        const uint i = lowestBit(bits);
-        bits &= bits - 1;
-        if (bits == 0) {
-          current = child[i];
-          continue;
-        }
-        float entry[8];
-        vstore8(entry8, 0, entry);
-        // Nearest first: the others wait, the nearest of them on top.
-        int next = child[i];
-        float nextEntry = entry[i];
-        const int bottom = depth;
-        for (; bits != 0; bits &= bits - 1) {
-          const uint k = lowestBit(bits);
-          int c = child[k];
-          float e = entry[k];
-          if (e < nextEntry) {
-            const int swapped = next;
-            const float swappedEntry = nextEntry;
-            next = c, nextEntry = e;
-            c = swapped, e = swappedEntry;
-          }
-          int at = depth++;
-          for (; at > bottom && entries[at - 1] < e; --at) {
-            entries[at] = entries[at - 1];
-            waiting[at] = waiting[at - 1];
-          }
-          entries[at] = e;
-          waiting[at] = c;
-        }
-        current = next;
-        continue;
-      }
+/// Children of a node as keys: the bits of the distance at which each is entered (not negative, so that they sort as
+/// integers), with the lane in the lowest three bits; NO_CHILD where there is none. A key is never above its distance.
+#define NO_CHILD 0xffffffffu
+
+INLINE uint8 childKeys(int8 entered, float8 entry) {
+  const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
+  return select((uint8)(NO_CHILD), (as_uint8(entry) & ~7u) | lane, as_uint8(entered));
+}
+
+/// Keys above this belong to children that lie behind t.
+INLINE uint keyLimit(float t) { return as_uint(t * FAR_WIDENING) | 7u; }
+
+/// A ray on its way to its nearest hit: children of `group` still to visit, the groups above it on the stack.
+typedef struct {
+  WideRay r;
+  Hit best;
+  uint limit;  // keyLimit(best.t)
+  uint8 keys;
+  int group, depth;
+  uint waiting[8 * WIDE_DEPTH];
+  int groups[WIDE_DEPTH];
+} Walk;
+
+/// One step: a child taken from the stack, a node opened or a leaf tested. 0 at the end of the way.
+INLINE int step(const SceneView* scene, Walk* w) {
+  const uint least = least8(w->keys);
+  if (least > w->limit) {
+    if (w->depth == 0) return 0;
+    --w->depth;
+    w->keys = vload8(w->depth, w->waiting);
+    w->group = w->groups[w->depth];
+    return 1;
+  }
+  const uint8 keys = select(w->keys, (uint8)(NO_CHILD), as_uint8(w->keys == least));
+  const int child = as_int(scene->wideNodes[(size_t)w->group * WIDE_NODE_FLOATS + 48 + (least & 7u)]);
+  if (child < 0) {
+    testNearestLeaf(scene, &w->r, child, &w->best);
+    w->limit = keyLimit(w->best.t);
+    w->keys = keys;
+    return 1;
+  }
+  float8 entry;
+  const int8 entered = wideEntries(&w->r, scene->wideNodes + (size_t)child * WIDE_NODE_FLOATS, w->best.t, &entry);
+  vstore8(keys, w->depth, w->waiting);
+  w->groups[w->depth] = w->group;
+  w->depth += anyOf8(keys != NO_CHILD);
+  w->keys = childKeys(entered, entry);
+  w->group = child;
+  return 1;
+}
+
+/// The next ray of the table that is awake, from lane *next on; PACKET_RAYS: there is none.
+INLINE uint nextAwake(const RayTable* rays, uint* next) {
+  while (*next < PACKET_RAYS && rays->t[*next] < 0.0f) ++*next;
+  return *next < PACKET_RAYS ? (*next)++ : PACKET_RAYS;
+}
+
+/// Puts the next ray at the root; 0: there is none.
+INLINE int startWalk(const SceneView* scene, const RayTable* rays, uint* next, Walk* w) {
+  const uint lane = nextAwake(rays, next);
+  if (lane == PACKET_RAYS) return 0;
+  w->r = wideRay(rays, lane);
+  w->best.t = rays->t[lane], w->best.triangle = NO_HIT, w->best.b1 = w->best.b2 = 0.0f;
+  w->limit = keyLimit(w->best.t);
+  float8 entry;
+  w->keys = childKeys(wideEntries(&w->r, scene->wideNodes, w->best.t, &entry), entry);
+  w->group = 0, w->depth = 0;
+  return 1;
+}
+
+INLINE void endWalk(const Walk* w, RayTable* rays) {
+  rays->t[w->r.lane] = w->best.t;
+  rays->triangle[w->r.lane] = w->best.triangle;
+  rays->b1[w->r.lane] = w->best.b1;
+  rays->b2[w->r.lane] = w->best.b2;
+}
+
+/// Nearest hits. Two rays take turns, so that one computes while the other waits for memory or for its own last result.
+void nearestApart(const SceneView* scene, RayTable* rays) {
+  for (int i = 0; i < PACKET_RAYS; ++i) rays->triangle[i] = NO_HIT, rays->b1[i] = rays->b2[i] = 0.0f;
+  uint next = 0;
+  Walk a, b;
+  int hasA = startWalk(scene, rays, &next, &a);
+  int hasB = startWalk(scene, rays, &next, &b);
+  while (hasA & hasB) {
+    if (!step(scene, &a)) {
+      endWalk(&a, rays);
+      hasA = startWalk(scene, rays, &next, &a);
     }
-    do {
-      if (depth == 0) return best;
-      --depth;
-    } while (entries[depth] > best.t * FAR_WIDENING);
-    current = waiting[depth];
+    if (!step(scene, &b)) {
+      endWalk(&b, rays);
+      hasB = startWalk(scene, rays, &next, &b);
+    }
+  }
+  if (hasA) {
+    while (step(scene, &a));
+    endWalk(&a, rays);
+  }
+  if (hasB) {
+    while (step(scene, &b));
+    endWalk(&b, rays);
   }
 }
 
-INLINE float3 transmittanceWide(const SceneView* scene, const Ray* r, float tMax) {
-  uint stops[3] = {0, 0, 0};
-  if (!isFiniteRay(r)) return (float3)(1.0f);
-  const BoxRay box = makeBoxRay(r);
-  int waiting[WIDE_STACK];
-  int depth = 0;
-  int current = 0;
-  for (;;) {
-    if (current < 0) {
-      if (testOcclusionBlock(scene, r, scene->blocks + (size_t)~current * BLOCK_FLOATS, tMax, stops))
-        return (float3)(0.0f);
-    } else {
-      __global const float* node = scene->wideNodes + (size_t)current * WIDE_NODE_FLOATS;
-      __global const int* child = (__global const int*)(node + 48);
-      float8 entry;
-      uint bits = wideEntries(r, &box, node, tMax, &entry);
-      if (bits != 0) {
-        current = child[lowestBit(bits)];
-        for (bits &= bits - 1; bits != 0; bits &= bits - 1) waiting[depth++] = child[lowestBit(bits)];
-        continue;
-      }
-    }
-    if (depth == 0) return transmittanceFromStops(stops);
-    current = waiting[--depth];
+/// A shadow ray on its way: one bit for each child of `group` still to visit, in the order of the node, which has the
+/// largest first: a ray that meets anything is at its end.
+typedef struct {
+  WideRay r;
+  float tMax;
+  uint bits;
+  int group, depth;
+  uint stops[3];
+  uchar waiting[WIDE_DEPTH];
+  int groups[WIDE_DEPTH];
+} ShadowWalk;
+
+#define SHADOW_ON 0
+#define SHADOW_OPEN 1
+#define SHADOW_BLOCKED 2
+
+INLINE int stepShadow(const SceneView* scene, const RayTable* rays, ShadowWalk* w) {
+  while (w->bits == 0) {
+    if (w->depth == 0) return SHADOW_OPEN;
+    --w->depth;
+    w->bits = w->waiting[w->depth];
+    w->group = w->groups[w->depth];
   }
+  const int child = as_int(scene->wideNodes[(size_t)w->group * WIDE_NODE_FLOATS + 48 + lowestBit(w->bits)]);
+  w->bits &= w->bits - 1;
+  if (child < 0) return testOcclusionLeaf(scene, rays, &w->r, child, w->tMax, w->stops) ? SHADOW_BLOCKED : SHADOW_ON;
+  w->waiting[w->depth] = (uchar)w->bits;
+  w->groups[w->depth] = w->group;
+  w->depth += w->bits != 0;
+  float8 entry;
+  w->bits = laneBits(wideEntries(&w->r, scene->wideNodes + (size_t)child * WIDE_NODE_FLOATS, w->tMax, &entry));
+  w->group = child;
+  return SHADOW_ON;
 }
 
+INLINE int startShadow(const SceneView* scene, const RayTable* rays, uint* next, ShadowWalk* w) {
+  const uint lane = nextAwake(rays, next);
+  if (lane == PACKET_RAYS) return 0;
+  w->r = wideRay(rays, lane);
+  w->tMax = rays->t[lane];
+  w->stops[0] = w->stops[1] = w->stops[2] = 0;
+  float8 entry;
+  w->bits = laneBits(wideEntries(&w->r, scene->wideNodes, w->tMax, &entry));
+  w->group = 0, w->depth = 0;
+  return 1;
+}
+
+/// stops: [3][PACKET_RAYS]
+INLINE void endShadow(const ShadowWalk* w, int end, RayTable* rays, uint* stops) {
+  if (end == SHADOW_BLOCKED) rays->t[w->r.lane] = -INFINITY;
+#if HAS(FILTERED_SHADOWS) || HAS(ALPHA_MASK)
+  for (int k = 0; k < 3; ++k) stops[k * PACKET_RAYS + w->r.lane] = w->stops[k];
 #endif
+}
 
-// The search for one ray, and how many of them a work item walks one after another: a stack for eight-wide nodes is large,
-// and PoCL gives each work item of a group its own.
-#if HAS(WIDE)
-#define RAYS_EACH 8
-#define nearestOne nearestWide
-#define transmittanceOne transmittanceWide
-#else
-#define RAYS_EACH 1
-#define nearestOne nearestSingle
-#define transmittanceOne transmittanceSingle
+/// Shadow rays: t becomes -inf where the light is blocked. stops: [3][PACKET_RAYS]. Two take turns, as above.
+void occludedApart(const SceneView* scene, RayTable* rays, uint* stops) {
+  uint next = 0;
+  ShadowWalk a, b;
+  int hasA = startShadow(scene, rays, &next, &a);
+  int hasB = startShadow(scene, rays, &next, &b);
+  while (hasA | hasB) {
+    if (hasA) {
+      const int end = stepShadow(scene, rays, &a);
+      if (end != SHADOW_ON) {
+        endShadow(&a, end, rays, stops);
+        hasA = startShadow(scene, rays, &next, &a);
+      }
+    }
+    if (hasB) {
+      const int end = stepShadow(scene, rays, &b);
+      if (end != SHADOW_ON) {
+        endShadow(&b, end, rays, stops);
+        hasB = startShadow(scene, rays, &next, &b);
+      }
+    }
+  }
+}
+
 #endif

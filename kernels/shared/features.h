@@ -5,7 +5,7 @@
 #define WHITTLE_FEATURES_H
 
 #define WHITTLE_FEATURES(X)                                       \
-  X(PACKETS, 0, "packets of eight rays")                          \
+  X(PACKETS, 0, "packets of sixteen rays")                        \
   X(TREE, 1, "tree search")                                       \
   X(SHADOWS, 2, "shadow rays")                                    \
   X(FILTERED_SHADOWS, 3, "shadows through transparent surfaces")  \
@@ -48,8 +48,7 @@
   X(AOVS, 40, "auxiliary outputs")                                \
   X(IMPULSES, 41, "impulse queue")                                \
   X(LIGHTS, 42, "direct light")                                   \
-  X(NEAREST_FILTER, 43, "nearest texture filter")                 \
-  X(WIDE, 44, "eight-wide tree")
+  X(NEAREST_FILTER, 43, "nearest texture filter")
 
 #ifdef __OPENCL_VERSION__
 // Preprocessor arithmetic is 64 bits wide; the macro above cannot define macros, so the bits stand here again
@@ -98,7 +97,6 @@
 #define BIT_IMPULSES 41
 #define BIT_LIGHTS 42
 #define BIT_NEAREST_FILTER 43
-#define BIT_WIDE 44
 #ifndef SCENE_FEATURES
 #define SCENE_FEATURES 0x7fffffffffffffff
 #endif
@@ -111,7 +109,8 @@
 #endif
 
 #define LONG_RUN 256    // a sample with more entries than this in one queue is cut into slices of this length
-#define WIDE_STACK 192  // waiting entries of a search through the eight-wide tree; a deeper one is refused
+#define PACKET_RAYS 16  // rays of a packet
+#define WIDE_DEPTH 64   // nodes on a way through the eight-wide tree; a deeper one is refused
 #define MAX_TREE_DEPTH 60  // traversal stack; the builder keeps to it
 
 #endif

@@ -4,17 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "support/random_scenes.h"
 
 namespace whittle {
 namespace {
 
 struct Walk {
-  std::vector<int> seen;  ///< how often a position of TriTree::order lies in a block
+  std::vector<int> seen;  ///< how often a position of TriTree::order lies in a leaf
   int stack = 0;
-  std::size_t nodes = 0;
+  std::size_t nodes = 0, leaves = 0;
+  int depth = 0;
 };
 
 bool contains(const WideNode& n, int k, float x, float y, float z) {
@@ -26,6 +25,7 @@ bool contains(const WideNode& n, int k, float x, float y, float z) {
 void walk(const WideTree& wide, const TriTree& tree, const test::TriangleMesh& mesh, std::int32_t index,
           int waiting, std::vector<std::pair<std::int32_t, int>>& boxes, Walk& w) {
   ++w.nodes;
+  w.depth = std::max(w.depth, static_cast<int>(boxes.size()) + 1);
   const WideNode& node = wide.nodes.at(static_cast<std::size_t>(index));
   int children = 0;
   for (int k = 0; k < 8; ++k) children += node.lo[0][k] <= node.hi[0][k];
@@ -37,19 +37,17 @@ void walk(const WideTree& wide, const TriTree& tree, const test::TriangleMesh& m
       ASSERT_GT(node.child[k], index) << "a cycle";
       walk(wide, tree, mesh, node.child[k], waiting + children - 1, boxes, w);
     } else {
-      const TriangleBlock& block = wide.blocks.at(static_cast<std::size_t>(~node.child[k]));
-      ASSERT_TRUE(block.count >= 1 && block.count <= 8);
-      for (std::uint32_t lane = 0; lane < 8; ++lane) {
-        if (lane >= block.count) {
-          EXPECT_TRUE(std::isnan(block.v[0][0][lane]));
-          continue;
-        }
-        const std::uint32_t t = tree.order.at(block.first + lane);
-        EXPECT_EQ(block.primitive[lane], t);
-        ++w.seen.at(block.first + lane);
+      const auto packed = static_cast<std::uint32_t>(~node.child[k]);
+      const std::uint32_t first = packed >> 3U, count = (packed & 7U) + 1;
+      ++w.leaves;
+      for (std::uint32_t lane = 0; lane < count; ++lane) {
+        const std::uint32_t t = tree.order.at(first + lane);
+        ++w.seen.at(first + lane);
         for (int corner = 0; corner < 3; ++corner) {
           const glm::vec3 p = mesh.positions[mesh.triangles[t][corner]];
-          for (int a = 0; a < 3; ++a) EXPECT_EQ(block.v[corner][a][lane], p[a]);
+          for (int a = 0; a < 3; ++a)
+            EXPECT_EQ(wide.corners.at(9 * first + static_cast<std::uint32_t>(3 * corner + a) * count + lane),
+                      p[a]);
           for (const auto& [n, c] : boxes)
             ASSERT_TRUE(contains(wide.nodes[static_cast<std::size_t>(n)], c, p.x, p.y, p.z));
         }
@@ -70,6 +68,9 @@ void expectWhole(const test::TriangleMesh& mesh, const std::string& name, const 
   for (std::size_t i = 0; i < w.seen.size(); ++i) ASSERT_EQ(w.seen[i], 1) << "position " << i;
   EXPECT_EQ(w.nodes, wide.nodes.size());
   EXPECT_EQ(w.stack, std::max(0, wide.stack));
+  EXPECT_EQ(w.depth, wide.depth);
+  EXPECT_EQ(w.leaves, wide.leaves);
+  EXPECT_GE(wide.corners.size(), 9 * tree.order.size() + 8);
 }
 
 TEST(WideTree, HoldsEveryTriangleOnce) {
@@ -77,7 +78,7 @@ TEST(WideTree, HoldsEveryTriangleOnce) {
     expectWhole(test::randomSoup(count, 0.1F, 41 + count), std::to_string(count));
 }
 
-TEST(WideTree, LongLeavesBecomeSeveralBlocks) {
+TEST(WideTree, LongLeavesAreSplit) {
   test::TriangleMesh alike;
   for (int i = 0; i < 1000; ++i) alike.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   BuildOptions sixteen;
@@ -92,7 +93,7 @@ TEST(WideTree, MostLanesAreTaken) {
   const auto mesh = test::randomSoup(20000, 0.02F, 5);
   const TriTree tree = buildTriTree(mesh.positions, mesh.triangles);
   const WideTree wide = buildWideTree(tree, mesh.positions, mesh.triangles);
-  const double children = static_cast<double>(wide.nodes.size() - 1 + wide.blocks.size());
+  const double children = static_cast<double>(wide.nodes.size() - 1 + wide.leaves);
   EXPECT_GE(children / static_cast<double>(wide.nodes.size()), 5.0);
 }
 

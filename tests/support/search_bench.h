@@ -18,13 +18,11 @@ struct SearchForm {
   const char* name;
   Search search;
   Lanes lanes;
-  bool wide = false;
 };
 inline constexpr std::array kSearchForms{SearchForm{"single/array", Search::Array, Lanes::One},
                                          SearchForm{"single/tree", Search::Tree, Lanes::One},
                                          SearchForm{"packet/array", Search::Array, Lanes::Eight},
-                                         SearchForm{"packet/tree", Search::Tree, Lanes::Eight},
-                                         SearchForm{"wide/tree", Search::Tree, Lanes::One, true}};
+                                         SearchForm{"packet/tree", Search::Tree, Lanes::Eight}};
 
 struct TestRay {
   glm::vec3 o, d;
@@ -58,13 +56,11 @@ class SearchBench {
  public:
   /// `testKernels` are appended to the program; give the same text for the same lab.
   SearchBench(SearchLab& lab, const Scene& scene, const SearchForm& form, const std::string& testKernels = {})
-      : compute_(lab.compute), eightEach_(form.lanes == Lanes::Eight || form.wide) {
+      : compute_(lab.compute), raysEach_(form.lanes == Lanes::Eight ? PACKET_RAYS : 1) {
     Settings settings;
     settings.search = form.search;
     settings.lanes = form.lanes;
-    auto features = SceneFeatures::analyse(scene, settings, {true});
-    if (form.wide)
-      features = SceneFeatures::ofBits(features.bits() | std::uint64_t{1} << static_cast<int>(Feature::WIDE));
+    const auto features = SceneFeatures::analyse(scene, settings, {true});
     auto& program = lab.programs[features.bits()];
     if (!program())
       program = compute_.build(assembleKernelSource({"intersect.cl", "occlude.cl"}, testKernelFolder()) +
@@ -84,7 +80,7 @@ class SearchBench {
   /// Nearest hits. The rays stand at the end of a queue behind others, so that `first` counts.
   std::vector<TestHit> nearest(const std::vector<TestRay>& rays) {
     const auto count = static_cast<std::uint32_t>(rays.size()), first = 3U,
-               capacity = (count + first + 7) / 8 * 8;
+               capacity = (count + first + PACKET_RAYS - 1) / PACKET_RAYS * PACKET_RAYS;
     std::vector<float> queue(std::size_t{RAY_PLANES} * capacity + QUEUE_PADDING, std::nanf(""));
     for (std::uint32_t i = 0; i < count; ++i) {
       for (int a = 0; a < 3; ++a) {
@@ -95,7 +91,7 @@ class SearchBench {
     const Buffer in = compute_.upload("rays", queue);
     const std::vector<float> rubbish(std::size_t{HIT_PLANES} * capacity + QUEUE_PADDING, std::nanf(""));
     const Buffer out = compute_.upload("hits", rubbish);
-    stages->run("intersect", eightEach_ ? (count + 7) / 8 : count, count, deviceScene, first, count, capacity,
+    stages->run("intersect", (count + raysEach_ - 1) / raysEach_, count, deviceScene, first, count, capacity,
                 in, out);
     std::vector<float> hits(rubbish.size());
     compute_.read(out, 0, out.bytes, hits.data());
@@ -114,7 +110,8 @@ class SearchBench {
 
   /// Whether something lies at 0 < t < length, for each ray; the queue visits them in reverse.
   std::vector<bool> occluded(const std::vector<TestRay>& rays, const std::vector<float>& lengths) {
-    const auto count = static_cast<std::uint32_t>(rays.size()), capacity = (count + 7) / 8 * 8;
+    const auto count = static_cast<std::uint32_t>(rays.size()),
+               capacity = (count + PACKET_RAYS - 1) / PACKET_RAYS * PACKET_RAYS;
     std::vector<float> shadows(std::size_t{SHADOW_PLANES} * capacity + QUEUE_PADDING, std::nanf(""));
     std::vector<std::uint32_t> order(capacity);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -130,7 +127,7 @@ class SearchBench {
                  queue = compute_.upload("shadowQueue", order);
     const Buffer radiance =
         compute_.upload("entryRadiance", std::vector<float>(std::size_t{3} * capacity, 0.0F));
-    stages->run("occlude", eightEach_ ? (count + 7) / 8 : count, count, deviceScene, count, capacity, queue,
+    stages->run("occlude", (count + raysEach_ - 1) / raysEach_, count, deviceScene, count, capacity, queue,
                 candidates, radiance);
     std::vector<float> light(count);
     compute_.read(radiance, 0, count * sizeof(float), light.data());
@@ -146,7 +143,7 @@ class SearchBench {
 
  private:
   Compute& compute_;
-  bool eightEach_;
+  std::uint32_t raysEach_;
   TriTree tree_;
 };
 

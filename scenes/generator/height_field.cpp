@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hash.h"
 #include "scenes.h"
 
 namespace generator {
@@ -12,14 +13,6 @@ namespace {
 constexpr double kSide = 16;     // metres, centred on the origin
 constexpr double kHeight = 3.2;  // metres between about the lowest and the highest point
 constexpr int kOctaves = 9;      // the last one is about as fine as 1024 squares resolve
-
-std::uint32_t mix(std::uint32_t v) {
-  v ^= v >> 16U;
-  v *= 0x7feb352dU;
-  v ^= v >> 15U;
-  v *= 0x846ca68bU;
-  return v ^ v >> 16U;
-}
 
 /// A fixed value in [0, 1) for each lattice point of each octave.
 double lattice(int x, int z, int octave) {

@@ -1,6 +1,6 @@
 // make_scenes OUTDIR [--only NAME]: writes every small scene, or one, as OUTDIR/NAME.glb.
 // make_scenes --heightfield N FILE: hills of N x N squares. make_scenes --frame FILE: the whole-frame
-// benchmark.
+// benchmark. make_scenes --mixed FILE: millimetres beside 120 km.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -16,11 +16,12 @@ using generator::GltfBuilder;
 constexpr int kMaxSquares = 4096;  // 33 million triangles; the file stays below GLB's 4 GiB
 
 constexpr const char* kUsage =
-    "usage: make_scenes OUTDIR [--only NAME] [--heightfield N FILE] [--frame FILE]\n"
+    "usage: make_scenes OUTDIR [--only NAME] [--heightfield N FILE] [--frame FILE] [--mixed FILE]\n"
     "  OUTDIR            writes every small scene there (- : none)\n"
     "  --only NAME       only this one\n"
     "  --heightfield N FILE   hills of N x N squares, N up to 4096\n"
-    "  --frame FILE      the whole-frame benchmark, 627 200 triangles and mirror balls\n";
+    "  --frame FILE      the whole-frame benchmark, 627 200 triangles and mirror balls\n"
+    "  --mixed FILE      millimetre triangles, slivers and triangles of 120 km, 202 810 in all\n";
 
 struct NamedScene {
   const char* name;
@@ -49,14 +50,18 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+void writeScene(const NamedScene& scene, const std::filesystem::path& file) {
+  GltfBuilder builder(scene.name);
+  scene.build(builder);
+  builder.write(file);
+}
+
 void writeScenes(const std::filesystem::path& folder, std::string_view only) {
   bool found = false;
   for (const NamedScene& scene : kScenes) {
     if (!only.empty() && only != scene.name) continue;
     found = true;
-    GltfBuilder builder(scene.name);
-    scene.build(builder);
-    builder.write(folder / (std::string(scene.name) + ".glb"));
+    writeScene(scene, folder / (std::string(scene.name) + ".glb"));
   }
   if (!found) throw UsageError(fmt::format("--only {}: there is no such scene", only));
 }
@@ -89,9 +94,10 @@ void run(int count, char** arguments) {
       writeHeightField(squares, next());
       wroteFile = true;
     } else if (argument == "--frame") {
-      GltfBuilder builder("frame");
-      generator::buildFrame(builder);
-      builder.write(next());
+      writeScene({"frame", generator::buildFrame}, next());
+      wroteFile = true;
+    } else if (argument == "--mixed") {
+      writeScene({"mixed", generator::buildMixed}, next());
       wroteFile = true;
     } else if (argument.starts_with("--") || !folder.empty()) {
       throw UsageError(fmt::format("{}: not understood", argument));

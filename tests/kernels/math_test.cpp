@@ -26,6 +26,14 @@ __kernel void difference(uint n, __global const float* v, __global float* out) {
   const uint i = get_global_id(0);
   if (i < n) out[i] = differenceOfProducts(v[4 * i], v[4 * i + 1], v[4 * i + 2], v[4 * i + 3]);
 }
+__kernel void eight_lanes(uint n, __global const float* v, __global float* out) {
+  const uint i = get_global_id(0);
+  if (i >= n) return;
+  const float8 x = vload8(4 * i, v), y = vload8(4 * i + 1, v), z = vload8(4 * i + 2, v), w = vload8(4 * i + 3, v);
+  vstore8(x * y - y * x, 3 * i, out);
+  vstore8((x * w - y * z) + (z * y - w * x), 3 * i + 1, out);
+  vstore8(differenceOfProducts8(x, y, z, w), 3 * i + 2, out);
+}
 __kernel void unit_vector(uint n, __global const float* v, __global float* out) {
   const uint i = get_global_id(0);
   if (i < n) vstore3(normalize3(vload3(i, v)), i, out);
@@ -57,6 +65,27 @@ TEST(Math, NothingIsContracted) {
   for (float& x : v) x = sized(rng, 3);
   const auto out = bench.map<float>("canary", 20011, 3, bench.compute.upload("v", v));
   EXPECT_EQ(std::count(out.begin(), out.end(), 0.0F), static_cast<std::ptrdiff_t>(out.size()));
+}
+
+/// The same in eight lanes; their difference of products has the single form's bits.
+TEST(Math, EightLanesAreEightTimesOne) {
+  auto bench = makeBench();
+  test::Rng rng(3);
+  constexpr std::uint32_t kEights = 2501;
+  std::vector<float> v(std::size_t{4} * 8 * kEights);
+  for (float& x : v) x = sized(rng, 3);
+  std::vector<float> single(v.size());  // the operands of one lane side by side
+  for (std::size_t i = 0; i < v.size(); ++i) single[i / 32 * 32 + i % 8 * 4 + i / 8 % 4] = v[i];
+  const auto eights = bench.map<float>("eight_lanes", kEights, 24, bench.compute.upload("v", v));
+  const auto ones = bench.map<float>("difference", 8 * kEights, 1, bench.compute.upload("single", single));
+  std::size_t contracted = 0, different = 0;
+  for (std::size_t i = 0; i < ones.size(); ++i) {
+    const float* out = &eights[i / 8 * 24 + i % 8];
+    contracted += out[0] != 0.0F || out[8] != 0.0F;
+    different += out[16] != ones[i];
+  }
+  EXPECT_EQ(contracted, 0U);
+  EXPECT_EQ(different, 0U);
 }
 
 /// a·b − c·d where both products nearly agree: the sign must be the exact one, the error at most 2 units in

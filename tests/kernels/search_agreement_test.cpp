@@ -1,5 +1,5 @@
-// The four forms of the search (one ray or eight, tree or array) give the same bits on random scenes, the
-// triangle that exact arithmetic finds, and any-hit answers that agree with the nearest hit.
+// The forms of the search (one ray or eight, array, tree or eight-wide tree) give the same bits on random
+// scenes, the triangle that exact arithmetic finds, and any-hit answers that agree with the nearest hit.
 #include <gtest/gtest.h>
 
 #include "support/search_bench.h"

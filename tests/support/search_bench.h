@@ -102,7 +102,7 @@ class SearchBench {
       std::uint32_t triangle;
       std::memcpy(&triangle, &word, sizeof(triangle));
       result[i] = {plane(HIT_T), plane(HIT_B1), plane(HIT_B2),
-                   triangle == NO_HIT ? -1 : std::int64_t{tree_.order.at(triangle)}};
+                   triangle == NO_HIT ? -1 : std::int64_t{tree_.order.at(triangle - firstTriangle)}};
       if (triangle == NO_HIT) result[i].t = INFINITY, result[i].b1 = result[i].b2 = 0;
     }
     return result;
@@ -140,6 +140,7 @@ class SearchBench {
 
   std::optional<StageRunner> stages;
   DeviceScene deviceScene;
+  std::uint32_t firstTriangle = 0;  ///< where a test has moved the first triangle of the tree to
 
  private:
   Compute& compute_;

@@ -119,7 +119,7 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
   addChoice<Search>(c, "--search", s.search,
                     {{"auto", Search::Auto}, {"tree", Search::Tree}, {"array", Search::Array}},
                     "how the nearest triangle is found");
-  addChoice<Lanes>(c, "--lanes", s.lanes, {{"auto", Lanes::Auto}, {"1", Lanes::One}, {"8", Lanes::Eight}},
+  addChoice<Lanes>(c, "--lanes", s.lanes, {{"auto", Lanes::Auto}, {"1", Lanes::One}, {"16", Lanes::Sixteen}},
                    "rays that one work item searches for");
   c.add_flag("--keep-all-features", s.keepAllFeatures, "compile and run everything, needed or not");
 }

@@ -11,7 +11,7 @@ const char* toString(Sampler sampler) {
 }
 const char* toString(ImpulseMode mode) { return mode == ImpulseMode::All ? "all" : "one"; }
 const char* toString(Lanes lanes) {
-  return lanes == Lanes::Auto ? "auto" : (lanes == Lanes::One ? "1" : "8");
+  return lanes == Lanes::Auto ? "auto" : (lanes == Lanes::One ? "1" : "16");
 }
 
 nlohmann::ordered_json settingsToJson(const Settings& s) {

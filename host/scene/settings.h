@@ -11,7 +11,7 @@ namespace whittle {
 enum class Search : std::uint8_t { Auto, Tree, Array };
 enum class Sampler : std::uint8_t { Random, Stratified, Sobol };
 enum class ImpulseMode : std::uint8_t { All, One };
-enum class Lanes : std::uint8_t { Auto, One, Eight };
+enum class Lanes : std::uint8_t { Auto, One, Sixteen };
 
 struct Settings {
   int width = 640;           ///< pixels

@@ -75,27 +75,27 @@ void moveTwoWide(Compute& compute, SearchBench& bench) {
   bench.deviceScene.triangles = sparse(compute, "triangles", kMaxTriangles, {}, triangles);
 }
 
-/// Nodes and blocks beyond 2^32 bytes and beyond 2^24 of each; they name the last triangles.
+/// Nodes beyond 2^32 bytes and 2^24 of them, leaves beyond 2^32 bytes; they hold the last triangles.
 void moveEightWide(Compute& compute, SearchBench& bench) {
   auto nodes = contents<WideNode>(compute, bench.deviceScene.wideNodes);
-  auto blocks = contents<TriangleBlock>(compute, bench.deviceScene.blocks);
-  const std::size_t byNodes = (std::size_t{1} << 24) + 3, byBlocks = (std::size_t{1} << 24) + 7,
-                    byTriangles = kMaxTriangles - bench.tree().order.size();
+  auto triangles = contents<device::DeviceTriangle>(compute, bench.deviceScene.triangles);
+  const auto leaves = contents<float>(compute, bench.deviceScene.leaves);
+  triangles.pop_back();  // the sentinel, which nothing here points to
+  const std::size_t byNodes = (std::size_t{1} << 24) + 3, byTriangles = kMaxTriangles - triangles.size();
+  static_assert(kMaxTriangles * 9 * sizeof(float) > std::size_t{1} << 32);
   for (WideNode& n : nodes)
     for (int k = 0; k < 8; ++k) {
       std::int32_t& c = n.child[k];
+      const auto leaf = static_cast<std::uint32_t>(~c);
       if (!(n.lo[0][k] <= n.hi[0][k])) continue;
       c = c >= 0 ? static_cast<std::int32_t>(moved(c, byNodes))
-                 : static_cast<std::int32_t>(~moved(static_cast<std::uint32_t>(~c), byBlocks));
+                 : static_cast<std::int32_t>(~(moved(leaf >> 3U, byTriangles) << 3U | (leaf & 7U)));
     }
-  for (TriangleBlock& b : blocks) {
-    b.first = moved(b.first, byTriangles);
-    for (std::uint32_t lane = 0; lane < b.count; ++lane)
-      b.primitive[lane] = moved(b.primitive[lane], byTriangles);
-  }
+  for (device::DeviceTriangle& t : triangles) t.primitive = moved(t.primitive, byTriangles);
   bench.firstTriangle = static_cast<std::uint32_t>(byTriangles);
   bench.deviceScene.wideNodes = sparse(compute, "wideNodes", byNodes + nodes.size(), {nodes[0]}, nodes);
-  bench.deviceScene.blocks = sparse(compute, "blocks", byBlocks + blocks.size(), {}, blocks);
+  bench.deviceScene.leaves = sparse(compute, "leaves", 9 * byTriangles + leaves.size(), {}, leaves);
+  bench.deviceScene.triangles = sparse(compute, "triangles", kMaxTriangles, {}, triangles);
 }
 
 TEST(IndexRange, ExactAtTheFarEndOfTheLargestScene) {
@@ -103,7 +103,7 @@ TEST(IndexRange, ExactAtTheFarEndOfTheLargestScene) {
   const DeviceInfo& device = lab.compute.device();
   if (device.kind != "cpu" || kSanitized) GTEST_SKIP() << "memory that is not written would be taken";
   if (device.largestBuffer < kMaxTriangles * sizeof(device::DeviceTriangle) ||
-      device.globalMemory < 2 * kMaxTriangles * sizeof(device::DeviceTriangle))
+      device.globalMemory < 3 * kMaxTriangles * sizeof(device::DeviceTriangle))
     GTEST_SKIP() << formatBytes(device.largestBuffer) << " in one buffer, "
                  << formatBytes(device.globalMemory) << " in all: too little for the largest scene";
   // Each triangle twice in a row: which of the two counts is decided by indices that are one apart.
@@ -124,7 +124,7 @@ TEST(IndexRange, ExactAtTheFarEndOfTheLargestScene) {
     SearchBench bench(lab, scene, form);
     const auto expected = bench.nearest(rays);
     const auto expectedBlocked = bench.occluded(rays, lengths);
-    if (form.wide)
+    if (form.lanes != Lanes::One)
       moveEightWide(lab.compute, bench);
     else
       moveTwoWide(lab.compute, bench);

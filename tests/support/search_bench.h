@@ -21,8 +21,8 @@ struct SearchForm {
 };
 inline constexpr std::array kSearchForms{SearchForm{"single/array", Search::Array, Lanes::One},
                                          SearchForm{"single/tree", Search::Tree, Lanes::One},
-                                         SearchForm{"packet/array", Search::Array, Lanes::Eight},
-                                         SearchForm{"packet/tree", Search::Tree, Lanes::Eight}};
+                                         SearchForm{"packet/array", Search::Array, Lanes::Sixteen},
+                                         SearchForm{"packet/tree", Search::Tree, Lanes::Sixteen}};
 
 struct TestRay {
   glm::vec3 o, d;
@@ -56,7 +56,7 @@ class SearchBench {
  public:
   /// `testKernels` are appended to the program; give the same text for the same lab.
   SearchBench(SearchLab& lab, const Scene& scene, const SearchForm& form, const std::string& testKernels = {})
-      : compute_(lab.compute), raysEach_(form.lanes == Lanes::Eight ? PACKET_RAYS : 1) {
+      : compute_(lab.compute), raysEach_(form.lanes == Lanes::Sixteen ? PACKET_RAYS : 1) {
     Settings settings;
     settings.search = form.search;
     settings.lanes = form.lanes;

@@ -9,7 +9,7 @@
 
 namespace whittle {
 
-inline constexpr int kMaxBins = 32;
+inline constexpr int kMaxBins = 64;
 
 /// From a triangle to its bin on each axis.
 struct BinMap {

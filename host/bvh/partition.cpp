@@ -10,8 +10,9 @@
 
 namespace whittle {
 
-Partition partition(std::span<PrimRef> refs, const SideTest& sideTest) {
-  const SideTest test = sideTest;  // a copy: the stores below cannot change it, so it stays in registers
+template <typename Test>
+Partition partition(std::span<PrimRef> refs, const Test& sideTest) {
+  const Test test = sideTest;  // a copy: the stores below cannot change it, so it stays in registers
   // Without unpredictable branches (Lomuto): which side comes next is a coin toss.
   std::size_t end = 0;
   for (std::size_t i = 0; i < refs.size(); ++i) {
@@ -67,7 +68,8 @@ void exchange(std::span<PrimRef> refs, const std::vector<Misplaced>& a, const st
 
 }  // namespace
 
-Partition partitionParallel(std::span<PrimRef> refs, const SideTest& test) {
+template <typename Test>
+Partition partitionParallel(std::span<PrimRef> refs, const Test& test) {
   std::vector<Partition> parts(chunkCount(refs.size()));
   forEachChunk(refs.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     parts[chunk] = partition(refs.subspan(begin, end - begin), test);
@@ -88,5 +90,10 @@ Partition partitionParallel(std::span<PrimRef> refs, const SideTest& test) {
   exchange(refs, tooFarLeft, tooFarRight);
   return result;
 }
+
+template Partition partition(std::span<PrimRef>, const SideTest&);
+template Partition partition(std::span<PrimRef>, const SizeTest&);
+template Partition partitionParallel(std::span<PrimRef>, const SideTest&);
+template Partition partitionParallel(std::span<PrimRef>, const SizeTest&);
 
 }  // namespace whittle

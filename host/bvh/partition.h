@@ -7,6 +7,7 @@
 #include <span>
 
 #include "bvh/bins.h"
+#include "bvh/size_split.h"
 
 namespace whittle {
 
@@ -25,7 +26,10 @@ struct Partition {
   Box4 centroids[2];      ///< bounds of centroid2 of both sides
 };
 
-Partition partition(std::span<PrimRef> refs, const SideTest& test);
-Partition partitionParallel(std::span<PrimRef> refs, const SideTest& test);
+/// Test: SideTest or SizeTest.
+template <typename Test>
+Partition partition(std::span<PrimRef> refs, const Test& test);
+template <typename Test>
+Partition partitionParallel(std::span<PrimRef> refs, const Test& test);
 
 }  // namespace whittle

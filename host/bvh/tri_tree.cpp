@@ -2,6 +2,8 @@
 // Reads positions and corner indices; writes a TriTree.
 #include "bvh/tri_tree.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -87,7 +89,9 @@ std::int32_t append(std::unique_ptr<Subtree> tree, std::vector<TreeNode>& nodes)
 
 TriTree buildTriTree(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
                      const BuildOptions& options) {
-  if (triangles.size() > kMaxTriangles) throw std::length_error("more than 2^27 triangles");
+  if (triangles.size() > kMaxTriangles)
+    throw std::length_error(
+        fmt::format("{} triangles are more than a tree can hold: {}", triangles.size(), kMaxTriangles));
   auto refs = std::make_unique_for_overwrite<PrimRef[]>(triangles.size());
   const BuildRange all = makeRefs(positions, triangles, {refs.get(), triangles.size()});
   TriTree tree;

@@ -32,14 +32,15 @@ struct TriTree {
 inline constexpr int kMaxTreeDepth = 60;
 
 struct BuildOptions {
-  int maxLeafTriangles = 4;  ///< at most 16
-  int bins = 16;
+  int maxLeafTriangles = 4;    ///< at most 16
+  int bins = 64;               ///< at most 64; fewer where there are few triangles
   float traversalCost = 1.0F;  ///< relative to the cost of one triangle test
 };
 
-/// Binned-SAH build (Wald 2007), parallel with TBB over the calling arena's threads. The result depends on
-/// the input alone, never on the number of threads. `triangles` are corner indices into `positions`, three
-/// each. Triangles with a non-finite corner are left out. Leaves up to 2^27 triangles.
+/// Binned-SAH build (Wald 2007) with splits by size where planes help little, parallel with TBB over the
+/// calling arena's threads. The result depends on the input alone, never on the number of threads.
+/// `triangles` are corner indices into `positions`, three each. Triangles with a non-finite corner are left
+/// out. Leaves up to 2^27 triangles.
 TriTree buildTriTree(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
                      const BuildOptions& options = {});
 

@@ -1,5 +1,6 @@
 // The recursion of the builder: where to split, when to stop, in which order nodes are laid out.
-// Binned SAH after Wald 2007; the depth limit falls back to object medians.
+// Binned SAH after Wald 2007, splits by size where every plane is poor; the depth limit falls back to object
+// medians.
 #include "bvh/tri_tree_builder.h"
 
 #include <tbb/parallel_invoke.h>
@@ -19,6 +20,10 @@ namespace {
 constexpr std::uint32_t kParallelSplit = 1U
                                          << 16;  ///< triangles from which one split is worth several threads
 constexpr std::uint32_t kParallelTask = 1U << 11;  ///< triangles from which a subtree is worth a task
+
+/// A plane whose sides cost more than this part of the node undivided hardly helps. (0.6 to 0.9 give the same
+/// trees but for a few nodes.)
+constexpr double kPoorPlane = 0.8;
 
 /// Levels of nodes that median splits need below and including a node of n triangles; 0: fits in a leaf.
 int medianLevels(std::uint32_t n, std::uint32_t maxLeaf) {
@@ -131,6 +136,15 @@ bool TriTreeBuilder::split(const BuildRange& range, int depth, Children& childre
     if (map.usable()) {
       const BinSplit plane = bestSplit(binRange(refs(range), map), map, range.box);
       if (n <= maxLeaf && !worthSplitting(range, plane)) return false;
+      // A plane that leaves nearly all of the cost: a split by size may do better.
+      const double area = halfArea(range.box);
+      if (plane.axis >= 0 && n > maxLeaf && plane.cost() > kPoorPlane * area * n) {
+        const SizeSplit sizes = bestSizeSplit(refs(range), area);
+        if (sizes.bin > 0 && sizes.cost() < plane.cost()) {
+          splitBySize(range, sizes, children);
+          return true;
+        }
+      }
       if (plane.axis >= 0) {
         splitAtPlane(range, map, plane, children);
         return true;
@@ -156,6 +170,16 @@ void TriTreeBuilder::splitAtPlane(const BuildRange& range, const BinMap& map, co
   const std::uint32_t middle = range.begin + static_cast<std::uint32_t>(sides.first);
   children.range[0] = {range.begin, middle, test.highFirst ? plane.high : plane.low, sides.centroids[0]};
   children.range[1] = {middle, range.end, test.highFirst ? plane.low : plane.high, sides.centroids[1]};
+}
+
+void TriTreeBuilder::splitBySize(const BuildRange& range, const SizeSplit& sizes, Children& children) const {
+  const SizeTest test{halfArea(range.box), sizes.bin};
+  const bool large = range.size() >= kParallelSplit;
+  const Partition sides = large ? partitionParallel(refs(range), test) : partition(refs(range), test);
+  const std::uint32_t middle = range.begin + static_cast<std::uint32_t>(sides.first);
+  children.range[0] = {range.begin, middle, sizes.large, sides.centroids[0]};
+  children.range[1] = {middle, range.end, sizes.small, sides.centroids[1]};
+  if (halfArea(sizes.large) < halfArea(sizes.small)) std::swap(children.range[0], children.range[1]);
 }
 
 void TriTreeBuilder::splitAtMedian(const BuildRange& range, Children& children) const {

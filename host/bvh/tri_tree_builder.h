@@ -9,6 +9,7 @@
 
 #include "bvh/bins.h"
 #include "bvh/prim_ref.h"
+#include "bvh/size_split.h"
 #include "bvh/tri_tree.h"
 
 namespace whittle {
@@ -52,6 +53,7 @@ class TriTreeBuilder {
   bool worthSplitting(const BuildRange& range, const BinSplit& plane) const;
   void splitAtPlane(const BuildRange& range, const BinMap& map, const BinSplit& plane,
                     Children& children) const;
+  void splitBySize(const BuildRange& range, const SizeSplit& sizes, Children& children) const;
   void splitAtMedian(const BuildRange& range, Children& children) const;
   std::int32_t makeLeaf(const BuildRange& range) const;
   std::span<PrimRef> refs(const BuildRange& range) const { return refs_.subspan(range.begin, range.size()); }

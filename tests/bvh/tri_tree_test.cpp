@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <cstdlib>
 #include <cstring>
+#include <memory>
 
 #include "bvh/tree_check.h"
 
@@ -43,6 +45,20 @@ TEST(TriTree, LeafSizesAreRespected) {
   // Out of range: taken for the nearest legal value.
   EXPECT_EQ(checkTree(build(mesh, {100, 1000, 1.0F}), mesh, 16), "");
   EXPECT_EQ(checkTree(build(mesh, {0, 0, 1.0F}), mesh, 1), "");
+}
+
+/// Refused by number alone: the triangles are reserved memory that nobody reads or writes.
+TEST(TriTree, MoreThanLeavesCanNameIsRefusedWithBothNumbers) {
+  constexpr std::size_t kTooMany = (std::size_t{1} << 27) + 1;
+  const std::unique_ptr<void, decltype(&std::free)> reserved(std::malloc(kTooMany * sizeof(glm::uvec3)),
+                                                             &std::free);
+  ASSERT_TRUE(reserved);
+  try {
+    buildTriTree({}, {static_cast<const glm::uvec3*>(reserved.get()), kTooMany});
+    FAIL() << "it was built";
+  } catch (const std::length_error& e) {
+    EXPECT_STREQ(e.what(), "134217729 triangles are more than a tree can hold: 134217728");
+  }
 }
 
 TEST(TriTree, NoTriangles) {
@@ -188,7 +204,10 @@ TEST(TriTree, SameForAnyNumberOfThreadsAndEveryRun) {
   TriangleMesh same;
   same.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   same.triangles.assign(150000, {0, 1, 2});
-  for (const TriangleMesh& mesh : {soup, heightField(300, 12), same}) {
+  // Large enough for several threads to split by size: every plane leaves the huge ones beside the soup.
+  TriangleMesh stadium = randomSoup(150000, 0.01F, 13);
+  for (int i = 0; i < 9; ++i) stadium.append(randomSoup(1, 1000, 14 + static_cast<std::uint64_t>(i)));
+  for (const TriangleMesh& mesh : {soup, heightField(300, 12), same, stadium}) {
     TriTree trees[4];
     for (const std::size_t threads : {1U, 2U, 3U}) {
       const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);

@@ -101,8 +101,13 @@ class Bench {
     result_.device = compute_.device().name;
     result_.buildSeconds = median(ours);
     result_.embreeSeconds = theirs.empty() ? 0 : median(theirs);
-    result_.bytesPerTriangle =
-        static_cast<double>(kernels_.front()->sceneBytes()) / static_cast<double>(scene_.triangles.size());
+    const auto perTriangle = [&](std::size_t bytes) {
+      return static_cast<double>(bytes) / static_cast<double>(scene_.triangles.size());
+    };
+    result_.bytesPerTriangle = perTriangle(kernels_.front()->sceneBytes());
+    for (const auto& k : kernels_)
+      result_.kernels.push_back(
+          {k->kernel().name, perTriangle(k->nodeBytes()), perTriangle(k->triangleBytes())});
   }
 
   double makeEmbree(std::unique_ptr<EmbreeYardstick>& out, bool robust) {

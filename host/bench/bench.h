@@ -34,13 +34,21 @@ struct BenchRow {
   std::size_t disagree = 0;  ///< rays for which Embree's robust mode says something else than this kernel
 };
 
+/// What one kernel reads of the scene while it searches, bytes for each triangle of the scene.
+struct KernelMemory {
+  std::string kernel;
+  double nodes = 0;
+  double triangles = 0;  ///< or blocks of them
+};
+
 struct BenchResult {
   std::size_t triangles = 0;
   int threads = 0;
   std::string device;
   double buildSeconds = 0;
-  double bytesPerTriangle = 0;  ///< tree and triangles as the searches read them
-  double embreeSeconds = 0;     ///< build in medium quality: fast, or robust where only that competes
+  double bytesPerTriangle = 0;        ///< tree and triangles as the searches read them
+  double embreeSeconds = 0;           ///< build in medium quality: fast, or robust where only that competes
+  std::vector<KernelMemory> kernels;  ///< every kernel, whether it takes part or not
   std::vector<BenchRow> rows;
 };
 

@@ -61,6 +61,14 @@ std::size_t QueryRunner::sceneBytes() const {
   return bytes;
 }
 
+std::size_t QueryRunner::nodeBytes() const {
+  return kernel_.features & bit(Feature::WIDE) ? scene_.wideNodes.bytes : scene_.nodes.bytes;
+}
+
+std::size_t QueryRunner::triangleBytes() const {
+  return kernel_.features & bit(Feature::WIDE) ? scene_.blocks.bytes : scene_.triangles.bytes;
+}
+
 void QueryRunner::load(const RaySet& rays) {
   count_ = static_cast<std::uint32_t>(rays.size());
   capacity_ = (count_ + 63) / 64 * 64;

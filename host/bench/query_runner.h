@@ -42,6 +42,9 @@ class QueryRunner {
 
   const QueryKernel& kernel() const { return kernel_; }
   std::size_t sceneBytes() const;
+  /// Of those, what the search of opaque triangles reads: nodes, and triangles or blocks of them.
+  std::size_t nodeBytes() const;
+  std::size_t triangleBytes() const;
 
  private:
   Compute& compute_;

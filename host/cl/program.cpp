@@ -23,8 +23,10 @@ Compute::Compute(DeviceInfo device, Memory memory) : device_(std::move(device)),
 Buffer Compute::allocate(const std::string& name, std::size_t bytes) {
   if (bytes == 0) return {};
   if (bytes > device_.largestBuffer)
-    throw ClError(fmt::format("buffer '{}' needs {} but {} allows {} in one allocation", name,
-                              formatBytes(bytes), device_.name, formatBytes(device_.largestBuffer)));
+    // Bytes as well: just above the limit both are the same number of gigabytes.
+    throw ClError(fmt::format("buffer '{}' needs {} ({} bytes) but {} allows {} ({} bytes) in one allocation",
+                              name, formatBytes(bytes), bytes, device_.name,
+                              formatBytes(device_.largestBuffer), device_.largestBuffer));
   if (memory_ == Memory::SizesOnly) return {name, bytes, {}};
   return clTry(fmt::format("allocating buffer '{}' of {}", name, formatBytes(bytes)), [&] {
     return Buffer{name, bytes, cl::Buffer(context_, CL_MEM_READ_WRITE, bytes)};

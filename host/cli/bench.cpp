@@ -42,11 +42,18 @@ void printJson(const BenchCommand& o, const BenchResult& r) {
   }
   nlohmann::ordered_json build{{"seconds", r.buildSeconds}, {"bytesPerTriangle", r.bytesPerTriangle}};
   if (haveEmbree()) build["embreeSeconds"] = r.embreeSeconds;
+  nlohmann::ordered_json kernels = nlohmann::ordered_json::array();
+  for (const KernelMemory& k : r.kernels)
+    kernels.push_back({{"kernel", k.kernel},
+                       {"bytesPerTriangle", k.nodes + k.triangles},
+                       {"nodeBytesPerTriangle", k.nodes},
+                       {"triangleBytesPerTriangle", k.triangles}});
   const nlohmann::ordered_json json{{"scene", o.scene.file.string()},
                                     {"triangles", r.triangles},
                                     {"threads", r.threads},
                                     {"device", r.device},
                                     {"build", build},
+                                    {"kernels", kernels},
                                     {"rows", rows}};
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
@@ -56,7 +63,11 @@ void printTable(const BenchResult& r) {
              formatSome(static_cast<std::uint64_t>(r.threads), "thread", "threads"), r.device);
   fmt::print("tree: {:.3f} s, {:.0f} bytes for each triangle", r.buildSeconds, r.bytesPerTriangle);
   if (haveEmbree()) fmt::print("; Embree: {:.3f} s", r.embreeSeconds);
-  fmt::print("\n\n{:<11} {:<8} {:<9} {:>10} {:>9}", "rays", "query", "kernel", "count", "Mrays/s");
+  fmt::print("\nread by");
+  for (const KernelMemory& k : r.kernels)
+    fmt::print("{} {}: {:.0f} + {:.0f}", &k == &r.kernels.front() ? "" : ",", k.kernel, k.nodes, k.triangles);
+  fmt::print(" bytes of nodes + triangles for each triangle\n\n{:<11} {:<8} {:<9} {:>10} {:>9}", "rays",
+             "query", "kernel", "count", "Mrays/s");
   if (haveEmbree()) fmt::print(" {:>9} {:<19} {:>6} {:>9}", "Embree's", "best mode", "ratio", "disagree");
   fmt::print("\n");
   for (const BenchRow& row : r.rows) {

@@ -35,7 +35,10 @@ TEST(Compute, AllocationOverTheLimitNamesBufferSizeAndLimit) {
   EXPECT_TRUE(contains(message, "'rays of the test'")) << message;
   EXPECT_TRUE(contains(message, formatBytes(tooMuch))) << message;
   EXPECT_TRUE(contains(message, formatBytes(limit))) << message;
+  EXPECT_TRUE(contains(message, std::to_string(tooMuch))) << message;
+  EXPECT_TRUE(contains(message, std::to_string(limit))) << message;
   EXPECT_TRUE(contains(message, compute.device().name)) << message;
+  EXPECT_FALSE(contains(message, "\n")) << message;
 }
 
 TEST(Compute, BuffersKeepTheirContents) {

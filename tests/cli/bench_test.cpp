@@ -21,7 +21,7 @@ Json benchOf(const std::vector<std::string>& more) {
 
 TEST(Bench, HasARowForEachKindOfRayAndQuery) {
   const Json r = benchOf({});
-  for (const char* key : {"scene", "triangles", "threads", "device", "build", "rows"})
+  for (const char* key : {"scene", "triangles", "threads", "device", "build", "kernels", "rows"})
     EXPECT_TRUE(r.contains(key)) << key;
   for (const char* key : {"seconds", "bytesPerTriangle"}) EXPECT_GT(r["build"][key], 0) << key;
   std::set<std::string> found;
@@ -34,6 +34,27 @@ TEST(Bench, HasARowForEachKindOfRayAndQuery) {
     for (const char* query : {" nearest", " any"})
       EXPECT_TRUE(found.contains(std::string(kind) + query)) << kind << query;
   EXPECT_EQ(r["rows"].size(), 14U);
+}
+
+/// What each kernel reads of the scene, whether it takes part or not: its nodes, and its triangles (48 bytes
+/// and one more than there are) or blocks.
+TEST(Bench, SaysWhatEachKernelReadsForEachTriangle) {
+  const Json r = benchOf({});
+  std::set<std::string> names;
+  for (const auto& k : r["kernels"]) {
+    names.insert(k["kernel"].get<std::string>());
+    const double nodes = k["nodeBytesPerTriangle"], triangles = k["triangleBytesPerTriangle"];
+    EXPECT_GT(nodes, 1) << k;
+    EXPECT_GE(triangles, 36) << k << ": three corners";
+    EXPECT_LT(nodes + triangles, 1000) << k;
+    EXPECT_DOUBLE_EQ(k["bytesPerTriangle"], nodes + triangles) << k;
+    if (k["kernel"] == "single2") {
+      const double count = r["triangles"];
+      EXPECT_NEAR(triangles, 48 * (count + 1) / count, 1e-6);
+      EXPECT_LE(nodes, 64) << "at most a node for each triangle";
+    }
+  }
+  EXPECT_TRUE(names.contains("single2") && names.contains(r["rows"][0]["kernel"].get<std::string>()));
 }
 
 /// Embree in its robust mode judges every kernel; a build without it has nothing to say.
@@ -55,7 +76,8 @@ TEST(Bench, TextSaysTheSame) {
       {"bench", std::string(WHITTLE_SCENES) + "/shadow.glb", "--rays", "500", "--runs", "1", "--quiet"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err, "");
-  for (const char* part : {"triangles", "bytes for each triangle", "mirror2", "packet8", "Mrays/s"})
+  for (const char* part :
+       {"triangles", "bytes for each triangle", "nodes + triangles", "mirror2", "packet8", "Mrays/s"})
     EXPECT_NE(run.out.find(part), std::string::npos) << part << " in:\n" << run.out;
 }
 

@@ -38,7 +38,7 @@ struct BenchRow {
 struct KernelMemory {
   std::string kernel;
   double nodes = 0;
-  double triangles = 0;  ///< or blocks of them
+  double triangles = 0;  ///< or leaves of their corners
 };
 
 struct BenchResult {

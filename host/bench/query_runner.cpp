@@ -62,11 +62,11 @@ std::size_t QueryRunner::sceneBytes() const {
 }
 
 std::size_t QueryRunner::nodeBytes() const {
-  return kernel_.features & bit(Feature::WIDE) ? scene_.wideNodes.bytes : scene_.nodes.bytes;
+  return scene_.wideNodes.bytes + scene_.nodes.bytes;
 }
 
 std::size_t QueryRunner::triangleBytes() const {
-  return kernel_.features & bit(Feature::WIDE) ? scene_.blocks.bytes : scene_.triangles.bytes;
+  return scene_.leaves ? scene_.leaves.bytes : scene_.triangles.bytes;
 }
 
 void QueryRunner::load(const RaySet& rays) {

@@ -42,7 +42,7 @@ class QueryRunner {
 
   const QueryKernel& kernel() const { return kernel_; }
   std::size_t sceneBytes() const;
-  /// Of those, what the search of opaque triangles reads: nodes, and triangles or blocks of them.
+  /// Of those, what the search of opaque triangles reads: nodes, and triangles or leaves of their corners.
   std::size_t nodeBytes() const;
   std::size_t triangleBytes() const;
 

@@ -11,8 +11,8 @@ namespace {
 constexpr std::uint32_t kLanes = 8;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// What visiting a node and testing a block cost, in visits; measured on one core with 8-lane vectors.
-constexpr float kNodeCost = 1.0F, kBlockCost = 1.5F;
+/// What visiting a node and testing a leaf cost, in visits; measured on one core with 8-lane vectors.
+constexpr float kNodeCost = 1.0F, kLeafCost = 1.5F;
 
 /// A subtree of the two-wide tree: its box and its run of TriTree::order.
 struct Subtree {
@@ -32,7 +32,7 @@ struct Subtree {
 struct Plan {
   std::array<float, kLanes> cost;
   std::array<std::uint8_t, kLanes> left;
-  bool isBlock;                ///< as one child it is a block of triangles, not a node
+  bool endsHere;                ///< as one child it is a leaf, not a node
   std::uint8_t total, toLeft;  ///< as a node: its children, and how many come from the left
 };
 
@@ -90,8 +90,8 @@ class Collapse {
   Plan planOf(const Subtree& s) const {
     if (!s.isLeaf()) return plans_[static_cast<std::size_t>(s.child)];
     Plan plan{};
-    plan.isBlock = true;
-    plan.cost.fill(s.area() * kBlockCost * static_cast<float>((s.count + kLanes - 1) / kLanes));
+    plan.endsHere = true;
+    plan.cost.fill(s.area() * kLeafCost * static_cast<float>((s.count + kLanes - 1) / kLanes));
     return plan;
   }
 
@@ -135,9 +135,9 @@ class Collapse {
     plan.toLeft = plan.left[plan.total - 1U];
     const float area = s.count > 0 ? s.area() : 0;
     const float asNode = area * kNodeCost + *best;
-    const float asBlock = s.count <= kLanes ? area * kBlockCost : kInfinity;
-    plan.isBlock = asBlock <= asNode;
-    plan.cost[0] = std::min(asBlock, asNode);
+    const float asLeaf = s.count <= kLanes ? area * kLeafCost : kInfinity;
+    plan.endsHere = asLeaf <= asNode;
+    plan.cost[0] = std::min(asLeaf, asNode);
     for (std::uint32_t i = 1; i < kLanes; ++i) {
       if (plan.cost[i] < plan.cost[i - 1]) continue;
       plan.cost[i] = plan.cost[i - 1];
@@ -162,7 +162,7 @@ class Collapse {
     if (isThere(tree_.nodes[n], 1)) handOver(childOf(n, 1), total - left, out);
   }
 
-  bool becomesBlock(const Subtree& s) const { return s.isLeaf() || planOf(s).isBlock; }
+  bool becomesLeaf(const Subtree& s) const { return s.isLeaf() || planOf(s).endsHere; }
 
   void fill(const Pending& p, std::vector<Pending>& pending) {
     std::vector<Subtree> children;
@@ -199,14 +199,14 @@ class Collapse {
       out_.nodes[node].hi[a][k] = child ? child->hi[a] : -kInfinity;
     }
     if (!child) return;
-    if (!becomesBlock(*child)) {
+    if (!becomesLeaf(*child)) {
       out_.nodes[node].child[k] = static_cast<std::int32_t>(out_.nodes.size());
       pending.push_back({child->child, out_.nodes.size(), waiting, depth + 1});
       out_.nodes.emplace_back();
     } else if (child->count <= kLanes) {
       out_.nodes[node].child[k] = addLeaf(child->first, child->count);
     } else {
-      // Room for none: a node of two blocks of the same box.
+      // Room for none: a node of two leaves of the same box.
       const auto own = out_.nodes.size();
       out_.nodes[node].child[k] = static_cast<std::int32_t>(own);
       out_.nodes.emplace_back();

@@ -34,7 +34,7 @@ struct WideTree {
 };
 
 /// Collapses `tree` so that the expected cost of a search (surface area heuristic) is least: which subtrees
-/// become nodes of their own, which are handed up to their parent's free lanes, which become blocks (Ylitie,
+/// become nodes of their own, which are handed up to their parent's free lanes, which become leaves (Ylitie,
 /// Karras, Laine 2017). Opening the child of the largest box until there are eight instead leaves half of the
 /// lanes empty.
 WideTree buildWideTree(const TriTree& tree, std::span<const glm::vec3> positions,

@@ -1,44 +1,77 @@
-// film: adds the finished samples of a batch to their pixels, in sample order, with compensated sums (Neumaier 1974;
-// renormalised at each step, Dekker 1971).
+// film: adds the finished samples of a batch to their pixels, LANES pixels for each work item, in sample order, with
+// compensated sums (Neumaier 1974; renormalised at each step, Dekker 1971).
 // A sample that is not finite is counted and left out.
-#include "lib/math.cl"
+#include "lib/lanes.cl"
 
 /// sum + value; *compensation is what the result lacks. Errors of a long sum all lean the same way: the compensation is
 /// handed back to the sum at once, or it would itself grow until it rounds (6e-5 off after 10^6 samples).
-INLINE float compensatedAdd(float sum, float value, float* compensation) {
-  const float result = sum + value;
-  const float error = fabs(sum) >= fabs(value) ? (sum - result) + value : (value - result) + sum;
-  const float lacking = *compensation + error;
-  const float renormalised = result + lacking;
-  *compensation = (result - renormalised) + lacking;
-  return renormalised;
+INLINE void compensatedAdd(Real* sum, Real value, Real* compensation) {
+  const Real result = *sum + value;
+  const Real error = fabs(*sum) >= fabs(value) ? (*sum - result) + value : (value - result) + *sum;
+  const Real lacking = *compensation + error;
+  *sum = result + lacking;
+  *compensation = (result - *sum) + lacking;
 }
 
-__kernel void film(const Batch batch, const uint capacity, const uint pixels, __global const float* sampleRadiance,
-                   __global float* sums,  // [FILM_PLANES][pixels of the picture], in the pixel order: no scattered writes
+/// Slots first, first + step, … of a plane of the samples; the last of `active` lanes stands in for those beyond.
+INLINE Real loadSlots(__global const float* plane, uint first, uint step, uint active) {
+  if (step == 1 && active == LANES) return LOAD(plane + first);
+  float own[LANES];
+  for (uint k = 0; k < LANES; ++k) own[k] = plane[first + step * (k < active ? k : active - 1)];
+  return LOAD(own);
+}
+
+INLINE void storeActive(Real value, __global float* to, uint active) {
+  if (active == LANES) {
+    STORE(value, to);
+    return;
+  }
+  float own[LANES];
+  STORE(value, own);
+  for (uint k = 0; k < active; ++k) to[k] = own[k];
+}
+
+__kernel void film(const Batch batch, const uint capacity, const uint pixels, const uint planes, __global const float* sampleRadiance,
+                   __global float* sums,  // [planes][pixels of the picture], in the pixel order: no scattered writes
                    __global uint* counters) {
-  const uint k = get_global_id(0);
+  const uint k = (uint)get_global_id(0) * LANES;
   if (k >= batch.pixels) return;
-  const uint pixel = batch.firstPixel + k;
-  float sum[4], compensation[4];
+  const uint active = batch.pixels - k < LANES ? batch.pixels - k : LANES;
+  __global float* own = sums + batch.firstPixel + k;
+  Real sum[4], compensation[4];
   for (int c = 0; c < 4; ++c) {
-    sum[c] = sums[(size_t)(c < 3 ? FILM_SUM + c : FILM_SQUARES) * pixels + pixel];
-    compensation[c] = sums[(size_t)(c < 3 ? FILM_COMPENSATION + c : FILM_SQUARES_COMPENSATION) * pixels + pixel];
+    // Before the first sample the film is 0.
+    sum[c] = compensation[c] = (Real)(0.0f);
+    if (batch.firstSample == 0) continue;
+    sum[c] = loadSlots(own + (size_t)(c < 3 ? FILM_SUM + c : FILM_SQUARES) * pixels, 0, 1, active);
+    compensation[c] = loadSlots(own + (size_t)(c < 3 ? FILM_COMPENSATION + c : FILM_SQUARES_COMPENSATION) * pixels, 0, 1, active);
   }
   for (uint s = 0; s < batch.samples; ++s) {
-    const float3 value = loadPlanes3(sampleRadiance, capacity, 0, k * batch.samples + s);
-    if (!isFinite3(value)) {
-      atomic_inc(counters + COUNTER_NONFINITE);
-      continue;
+    const uint slot = k * batch.samples + s;
+    Real value[4];
+    for (int c = 0; c < 3; ++c) value[c] = loadSlots(sampleRadiance + (size_t)c * capacity, slot, batch.samples, active);
+    const Mask finite = isfinite(value[0]) & isfinite(value[1]) & isfinite(value[2]);
+    if (some(!finite)) {
+      int lost[LANES];
+      STORE(!finite & 1, lost);
+      for (uint lane = 0; lane < active; ++lane)
+        if (lost[lane]) atomic_inc(counters + COUNTER_NONFINITE);
     }
-    const float y = luminance(value);
-    sum[0] = compensatedAdd(sum[0], value.x, &compensation[0]);
-    sum[1] = compensatedAdd(sum[1], value.y, &compensation[1]);
-    sum[2] = compensatedAdd(sum[2], value.z, &compensation[2]);
-    sum[3] = compensatedAdd(sum[3], y * y, &compensation[3]);
+    const Real y = 0.2126f * value[0] + 0.7152f * value[1] + 0.0722f * value[2];
+    value[3] = y * y;
+    for (int c = 0; c < 4; ++c) {
+      Real after = sum[c], lacking = compensation[c];
+      compensatedAdd(&after, value[c], &lacking);
+      sum[c] = finite ? after : sum[c];
+      compensation[c] = finite ? lacking : compensation[c];
+    }
+  }
+  if (planes == FILM_PLANES_OF_ONE) {
+    for (int c = 0; c < 3; ++c) storeActive(sum[c], own + (size_t)(FILM_SUM + c) * pixels, active);
+    return;
   }
   for (int c = 0; c < 4; ++c) {
-    sums[(size_t)(c < 3 ? FILM_SUM + c : FILM_SQUARES) * pixels + pixel] = sum[c];
-    sums[(size_t)(c < 3 ? FILM_COMPENSATION + c : FILM_SQUARES_COMPENSATION) * pixels + pixel] = compensation[c];
+    storeActive(sum[c], own + (size_t)(c < 3 ? FILM_SUM + c : FILM_SQUARES) * pixels, active);
+    storeActive(compensation[c], own + (size_t)(c < 3 ? FILM_COMPENSATION + c : FILM_SQUARES_COMPENSATION) * pixels, active);
   }
 }

@@ -1,80 +1,111 @@
-// raygen: one eye ray for each slot of the batch. Writes the ray queue, clears the slots' radiance.
+// raygen: one eye ray for each slot of the batch, LANES of them for each work item. Writes the ray queue but for
+// the throughput, which is 1.
 //
 // A direction a float's rounding off (3e-8) moves a texture seen at grazing incidence by hundredths of a texel, so the
 // point on the image plane is computed to twice a float's precision, and rounded once.
+#include "lib/lanes.cl"
 #include "lib/sampler.cl"
 
-/// (x, y, z) of a kernel argument's array.
-#define VECTOR3(array) ((float3)((array)[0], (array)[1], (array)[2]))
-
-/// (high + low) · scale, rounded once, for four scales; error: what that rounding lost.
-INLINE float4 scaledComponent(float high, float low, float4 scale, float4* error) {
-  const float4 product = high * scale;
-  const float4 rest = fma((float4)(high), scale, -product) + low * scale;
-  const float4 rounded = product + rest;
+/// (high + low) · scale, rounded once; error: what that rounding lost.
+INLINE Real scaledComponent(Real high, Real low, Real scale, Real* error) {
+  const Real product = high * scale;
+  const Real rest = fma(high, scale, -product) + low * scale;
+  const Real rounded = product + rest;
   *error = (product - rounded) + rest;
   return rounded;
 }
 
 /// The vector along high + low of length 1 (to within some 1e-7) whose components' rounding turns it least, out of four
 /// lengths a float apart: half the error of rounding at one length.
-INLINE float3 leastTurned(float3 high, float3 low) {
-  const float3 size = fabs(high);
-  const float largest = size.x > size.y ? (size.x > size.z ? size.x : size.z) : (size.y > size.z ? size.y : size.z);
-  const float3 scaled = high / largest;
-  const float scale = 1.0f / (largest * sqrt(dot3(scaled, scaled)));
-  const float4 scales = as_float4(as_uint(scale) + (uint4)(0, 1, 2, 3) - 2u);
-  float4 ex, ey, ez;
-  const float4 x = scaledComponent(high.x, low.x, scales, &ex);
-  const float4 y = scaledComponent(high.y, low.y, scales, &ey);
-  const float4 z = scaledComponent(high.z, low.z, scales, &ez);
-  const float4 along = ex * x + ey * y + ez * z;
-  const float4 turn = ex * ex + ey * ey + ez * ez - along * along;
-  const int2 second = turn.odd < turn.even;
-  const float2 pairTurn = select(turn.even, turn.odd, second);
-  const float2 pairX = select(x.even, x.odd, second), pairY = select(y.even, y.odd, second);
-  const float2 pairZ = select(z.even, z.odd, second);
-  return pairTurn.y < pairTurn.x ? (float3)(pairX.y, pairY.y, pairZ.y) : (float3)(pairX.x, pairY.x, pairZ.x);
+INLINE Real3 leastTurned(Real3 high, Real3 low) {
+  const Real ax = fabs(high.x), ay = fabs(high.y), az = fabs(high.z);
+  const Real xy = ax > ay ? ax : ay, largest = xy > az ? xy : az;
+  const Real sx = high.x / largest, sy = high.y / largest, sz = high.z / largest;
+  const Real scale = 1.0f / (largest * sqrt(sx * sx + sy * sy + sz * sz));
+  Real3 best = high;
+  Real leastTurn = INFINITY;
+  for (uint k = 0; k < 4; ++k) {
+    const Real tried = AS_REAL(AS_NATURAL(scale) + k - 2u);
+    Real ex, ey, ez;
+    const Real x = scaledComponent(high.x, low.x, tried, &ex);
+    const Real y = scaledComponent(high.y, low.y, tried, &ey);
+    const Real z = scaledComponent(high.z, low.z, tried, &ez);
+    const Real along = ex * x + ey * y + ez * z;
+    const Real turn = ex * ex + ey * ey + ez * ez - along * along;
+    const Mask better = turn < leastTurn;
+    leastTurn = better ? turn : leastTurn;
+    best.x = better ? x : best.x;
+    best.y = better ? y : best.y;
+    best.z = better ? z : best.z;
+  }
+  return best;
+}
+
+/// start + nx stepX + ny stepY, one component, and what that lost; steps and counts come in a high and a low part.
+INLINE Real onPlane(float start, float stepX, float stepXLow, float stepY, float stepYLow, Real nx, Real nxLow, Real ny,
+                    Real nyLow, Real* low) {
+  const Real moveX = nx * stepX, moveY = ny * stepY;
+  const Real withX = start + moveX, high = withX + moveY;
+  *low = sumErrorReal(start, moveX, withX) + sumErrorReal(withX, moveY, high) +
+         (fma(nx, (Real)(stepX), -moveX) + nxLow * stepX + nx * stepXLow) +
+         (fma(ny, (Real)(stepY), -moveY) + nyLow * stepY + ny * stepYLow);
+  return high;
+}
+
+/// Pixels (y << 16 | x) of LANES slots, and where in them their samples lie, twice: the sampled place runs over [0, 2).
+INLINE Natural samplePixels(const DeviceCamera* camera, const Batch* batch, uint slot, uint count,
+                            __global const uint* pixelOrder, Real* twiceX, Real* twiceY) {
+  uint packed[LANES];
+  float x[LANES], y[LANES];
+  for (uint k = 0; k < LANES; ++k) {
+    const uint own = slot + k < count ? slot + k : count - 1;
+    packed[k] = pixelOrder[batch->firstPixel + own / batch->samples];
+    const uint pixel = (packed[k] >> 16) * camera->width + (packed[k] & 0xffffu);
+    const float2 at = samplePixel(camera, pixel, batch->firstSample + own % batch->samples);
+    x[k] = 2.0f * at.x;
+    y[k] = 2.0f * at.y;
+  }
+  *twiceX = LOAD(x);
+  *twiceY = LOAD(y);
+  return LOAD(packed);
 }
 
 __kernel void raygen(const DeviceCamera camera, const Batch batch, const uint count, const uint capacity,
                      __global const uint* pixelOrder,  // [pixels of the picture] y << 16 | x along a space-filling order
-                     __global float* rays,             // [RAY_PLANES][capacity]
-                     __global float* sampleRadiance) { // [3][capacity] by slot
-  const uint slot = get_global_id(0);
+                     __global float* rays) {           // [RAY_PLANES][capacity]
+  const uint slot = (uint)get_global_id(0) * LANES;
   if (slot >= count) return;
-  const uint packed = pixelOrder[batch.firstPixel + slot / batch.samples];
-  const uint sample = batch.firstSample + slot % batch.samples;
-  const uint px = packed & 0xffffu, py = packed >> 16;
   const DeviceCamera own = camera;
-  const float2 at = samplePixel(&own, py * camera.width + px, sample);
+  const Batch ownBatch = batch;
+  Natural packed;
+  Real fractionX = (Real)(1.0f), fractionY = (Real)(1.0f);
+  if (own.raysPerPixel == 1 && slot + LANES <= count)
+    packed = LOAD(pixelOrder + batch.firstPixel + slot);
+  else
+    packed = samplePixels(&own, &ownBatch, slot, count, pixelOrder, &fractionX, &fractionY);
   // Half pixels from the middle of the picture: whole + fraction, both exact.
-  const float wholeX = (float)(2 * (int)px - (int)camera.width), wholeY = (float)(2 * (int)py - (int)camera.height);
-  const float fractionX = 2.0f * at.x, fractionY = 2.0f * at.y;
-  const float3 stepX = VECTOR3(camera.stepX), stepY = VECTOR3(camera.stepY);
-  float3 start = VECTOR3(camera.forward);
+  const Real wholeX = TO_REAL(2 * (packed & 0xffffu)) - (float)camera.width;
+  const Real wholeY = TO_REAL(2 * (packed >> 16)) - (float)camera.height;
+  const Real nx = wholeX + fractionX, ny = wholeY + fractionY;
+  const Real nxLow = (wholeX - nx) + fractionX, nyLow = (wholeY - ny) + fractionY;
+  const float* start = own.forward;
 #if HAS(ORTHOGRAPHIC)
-  if (camera.orthographic) start = VECTOR3(camera.position);
+  if (camera.orthographic) start = own.position;
 #endif
-  const float nx = wholeX + fractionX, ny = wholeY + fractionY;
-  const float nxLow = (wholeX - nx) + fractionX, nyLow = (wholeY - ny) + fractionY;
-  const float3 moveX = nx * stepX, moveY = ny * stepY;
-  const float3 withX = start + moveX, high = withX + moveY;
-  const float3 low = sumError3(start, moveX, withX) + sumError3(withX, moveY, high) +
-                     (fma((float3)(nx), stepX, -moveX) + nxLow * stepX + nx * VECTOR3(camera.stepXLow)) +
-                     (fma((float3)(ny), stepY, -moveY) + nyLow * stepY + ny * VECTOR3(camera.stepYLow));
-  float3 o = VECTOR3(camera.position);
-  float3 d;
+  Real3 high, low;
+  high.x = onPlane(start[0], own.stepX[0], own.stepXLow[0], own.stepY[0], own.stepYLow[0], nx, nxLow, ny, nyLow, &low.x);
+  high.y = onPlane(start[1], own.stepX[1], own.stepXLow[1], own.stepY[1], own.stepYLow[1], nx, nxLow, ny, nyLow, &low.y);
+  high.z = onPlane(start[2], own.stepX[2], own.stepXLow[2], own.stepY[2], own.stepYLow[2], nx, nxLow, ny, nyLow, &low.z);
+  Real3 o = real3(own.position[0], own.position[1], own.position[2]);
+  Real3 d;
 #if HAS(ORTHOGRAPHIC)
   if (camera.orthographic) {
-    o = high + low;
-    d = VECTOR3(camera.forward);
+    o = real3(high.x + low.x, high.y + low.y, high.z + low.z);
+    d = real3(own.forward[0], own.forward[1], own.forward[2]);
   } else
 #endif
     d = leastTurned(high, low);
-  storePlanes3(rays, capacity, RAY_O, slot, o);
-  storePlanes3(rays, capacity, RAY_D, slot, d);
-  storePlanes3(rays, capacity, RAY_THROUGHPUT, slot, (float3)(1.0f));
-  rays[(size_t)RAY_SLOT * capacity + slot] = as_float(slot);
-  storePlanes3(sampleRadiance, capacity, 0, slot, (float3)(0.0f));
+  storeReal3(rays, capacity, RAY_O, slot, o);
+  storeReal3(rays, capacity, RAY_D, slot, d);
+  STORE(AS_REAL(slot + LANE_NUMBERS), rays + (size_t)RAY_SLOT * capacity + slot);
 }

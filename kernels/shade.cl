@@ -132,7 +132,8 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #if HAS(ONE_IMPULSE)
       chooseOne(&one, &two, unitFloat(hash4(pixel, sample, 16u + bounce, own.seed)));
 #endif
-      const float3 throughput = loadPlanes3(rays, capacity, RAY_THROUGHPUT, first + i) * attenuation;
+      const float3 carried = bounce > 1 ? loadPlanes3(rays, capacity, RAY_THROUGHPUT, first + i) : (float3)(1.0f);
+      const float3 throughput = carried * attenuation;
       found |= storeImpulse(&s, &one, throughput, 0, i, capacity, impulses);
       found |= storeImpulse(&s, &two, throughput, 1, i, capacity, impulses);
     }

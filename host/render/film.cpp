@@ -11,8 +11,11 @@ namespace {
 
 double plane(const FilmSums& s, int sum, int compensation, std::size_t pixel) {
   const std::size_t pixels = static_cast<std::size_t>(s.width) * s.height;
-  return static_cast<double>(s.planes[static_cast<std::size_t>(sum) * pixels + pixel]) +
-         static_cast<double>(s.planes[static_cast<std::size_t>(compensation) * pixels + pixel]);
+  const auto value = [&](int at) {
+    return static_cast<double>(s.planes[static_cast<std::size_t>(at) * pixels + pixel]);
+  };
+  const bool compensated = s.planes.size() > FILM_PLANES_OF_ONE * pixels;
+  return value(sum) + (compensated ? value(compensation) : 0.0);
 }
 
 FloatImage gather(int width, int height, const std::vector<float>& planes, int first, int channels) {
@@ -26,6 +29,8 @@ FloatImage gather(int width, int height, const std::vector<float>& planes, int f
 }
 
 }  // namespace
+
+std::size_t filmPlanes(int samples) { return samples > 1 ? FILM_PLANES : FILM_PLANES_OF_ONE; }
 
 FloatImage resolveFilm(const FilmSums& sums, int samples) {
   FloatImage image{sums.width, sums.height, 3, {}};

@@ -11,7 +11,10 @@
 
 namespace whittle {
 
-/// FILM_PLANES planes of width·height floats (kernels/shared/layout.h), pixels in the order of
+/// Planes of the film of a picture with this many samples for each pixel.
+std::size_t filmPlanes(int samples);
+
+/// filmPlanes planes of width·height floats (kernels/shared/layout.h), pixels in the order of
 /// makePixelOrder.
 struct FilmSums {
   int width = 0, height = 0;

@@ -13,8 +13,7 @@ std::vector<std::string> plannedStages(const SceneFeatures& features, std::size_
   if (shadows || impulses) add({"scan_chunks"});
   if (shadows) add({"compact_shadow", "occlude"});
   if (lights > 1) add({"shade_light"});
-  add({"accumulate"});
-  if (impulses) add({"compact_count_impulse", "compact_impulse"});
+  if (impulses) add({"compact_count_impulse", "compact_impulse", "accumulate"});
   if (features.has(Feature::BOTH_BRANCHES) && bounces >= 10) add({"find_long_runs"});
   add({"film"});
   return stages;

@@ -23,10 +23,10 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
   const bool shadowRays = features.has(Feature::SHADOWS);
   const bool impulseRays = features.has(Feature::IMPULSES);
   hits = planes("hits", HIT_PLANES);
-  entryRadiance = planes("entryRadiance", 3);
   sampleRadiance = planes("sampleRadiance", 3);
   if (shadowRays) shadows = planes("shadows", SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
-  if (impulseRays) impulses = planes("impulses", 2 * IMPULSE_PLANES);
+  if (impulseRays)
+    impulses = planes("impulses", 2 * IMPULSE_PLANES), entryRadiance = planes("entryRadiance", 3);
   if (shadowRays || impulseRays) {
     flags = planes("flags", 1);
     totals = compute.allocate("totals", (capacity / compactChunk + 2) * sizeof(std::uint32_t));

@@ -151,7 +151,8 @@ class Session {
   /// Of the picture, before anything that takes time: too large a picture is refused at once.
   void allocateFilm() {
     const std::size_t pixels = static_cast<std::size_t>(settings_.width) * settings_.height;
-    const std::size_t film = pixels * FILM_PLANES * sizeof(float), order = pixels * sizeof(std::uint32_t);
+    const std::size_t film = pixels * filmPlanes(settings_.raysPerPixel) * sizeof(float),
+                      order = pixels * sizeof(std::uint32_t);
     const std::size_t aovs = features_.has(Feature::AOVS) ? pixels * AOV_PLANES * sizeof(float) : 0;
     const DeviceInfo& device = compute_->device();
     if (film + order + aovs > device.globalMemory)
@@ -251,8 +252,8 @@ class Session {
 
   FilmSums readFilm() {
     FilmSums sums{settings_.width, settings_.height, pixelOrderTable_, {}};
-    sums.planes.resize(static_cast<std::size_t>(settings_.width) * settings_.height * FILM_PLANES);
-    compute_->read(film_, 0, sums.planes.size() * sizeof(float), sums.planes.data());
+    sums.planes.resize(film_.bytes / sizeof(float));
+    compute_->read(film_, 0, film_.bytes, sums.planes.data());
     return sums;
   }
 

@@ -69,6 +69,10 @@ void Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t boun
 std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std::uint32_t bounce,
                                       Buffer& next) {
   stages_.setBounce(bounce);
+  // Eye rays are one for each sample, in the order of their slots, and are never cut: what their entries
+  // receive is what their samples have so far.
+  assert(bounce > 1 || segment.begin == 0);
+  radiance_ = bounce == 1 ? &queues_.sampleRadiance : &queues_.entryRadiance;
   intersect(queue, segment);
   shade(queue, segment, bounce);
   occlude(compactShadow(segment));
@@ -76,13 +80,13 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
     shadeLight(queue, segment, light);
     occlude(compactShadow(segment));
   }
-  accumulate(queue, segment);
+  if (bounce > 1) accumulate(queue, segment);
   return bounce < setup_.bounces ? compactImpulse(queue, segment, next) : 0;
 }
 
 void Wavefront::raygen(const Buffer& queue, std::uint32_t count) {
-  stages_.run("raygen", count, count, setup_.camera, batch_, count, queues_.capacity(), pixelOrder_, queue,
-              queues_.sampleRadiance);
+  stages_.run("raygen", laneItems(count), count, setup_.camera, batch_, count, queues_.capacity(),
+              pixelOrder_, queue);
   tally_.primary += count;
   tally_.produced += count;
 }
@@ -95,15 +99,15 @@ void Wavefront::intersect(const Buffer& queue, Segment segment) {
 void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce) {
   stages_.run("shade", segment.count(), segment.count(), setup_.scene, setup_.constants, batch_,
               segment.begin, segment.count(), queues_.capacity(), bounce, setup_.bounces, setup_.camera.width,
-              setup_.camera.width * setup_.camera.height, pixelOrder_, queue, queues_.hits,
-              queues_.entryRadiance, queues_.shadows, queues_.impulses, queues_.flags, aovs_);
+              setup_.camera.width * setup_.camera.height, pixelOrder_, queue, queues_.hits, *radiance_,
+              queues_.shadows, queues_.impulses, queues_.flags, aovs_);
   tally_.finished += segment.count();
 }
 
 void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t light) {
   stages_.run("shade_light", segment.count(), segment.count(), setup_.scene, setup_.constants, segment.begin,
-              segment.count(), queues_.capacity(), light, queue, queues_.hits, queues_.entryRadiance,
-              queues_.shadows, queues_.flags);
+              segment.count(), queues_.capacity(), light, queue, queues_.hits, *radiance_, queues_.shadows,
+              queues_.flags);
 }
 
 std::uint32_t Wavefront::compactShadow(Segment segment) {
@@ -123,7 +127,7 @@ std::uint32_t Wavefront::compactShadow(Segment segment) {
 void Wavefront::occlude(std::uint32_t count) {
   if (count == 0) return;
   stages_.run("occlude", searchItems(count), count, setup_.scene, count, queues_.capacity(),
-              queues_.shadowQueue, queues_.shadows, queues_.entryRadiance);
+              queues_.shadowQueue, queues_.shadows, *radiance_);
 }
 
 std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, Buffer& next) {
@@ -148,8 +152,10 @@ void Wavefront::accumulate(const Buffer& queue, Segment segment) {
 }
 
 void Wavefront::film() {
-  stages_.run("film", batch_.pixels, batch_.pixels, batch_, queues_.capacity(),
-              setup_.camera.width * setup_.camera.height, queues_.sampleRadiance, film_, counters_);
+  const std::uint32_t pixels = setup_.camera.width * setup_.camera.height;
+  const auto planes = static_cast<std::uint32_t>(film_.bytes / sizeof(float) / pixels);
+  stages_.run("film", laneItems(batch_.pixels), batch_.pixels, batch_, queues_.capacity(), pixels, planes,
+              queues_.sampleRadiance, film_, counters_);
 }
 
 std::uint32_t Wavefront::scanChunks(std::uint32_t count) {
@@ -171,6 +177,10 @@ bool Wavefront::hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint3
   std::uint32_t found = 0;
   compute_.read(counters_, offset, sizeof(found), &found);
   return found != 0;
+}
+
+std::uint32_t Wavefront::laneItems(std::uint32_t entries) const {
+  return setup_.features.has(Feature::PACKETS) ? (entries + 7) / 8 : entries;
 }
 
 std::uint32_t Wavefront::searchItems(std::uint32_t rays) const {

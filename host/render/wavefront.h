@@ -62,6 +62,8 @@ class Wavefront {
 
   std::uint32_t scanChunks(std::uint32_t count);
   bool hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint32_t bounce);
+  /// Work items of a kernel whose items handle LANES entries each.
+  std::uint32_t laneItems(std::uint32_t entries) const;
   std::uint32_t searchItems(std::uint32_t rays) const;
 
   Compute& compute_;
@@ -73,6 +75,7 @@ class Wavefront {
   const Buffer& aovs_;
   Buffer counters_;
   device::Batch batch_{};
+  const Buffer* radiance_ = nullptr;  ///< where the segment's entries put theirs
   RayTally tally_;
 };
 

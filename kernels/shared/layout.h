@@ -138,7 +138,7 @@ WHITTLE_STRUCT(Batch) {
 // QUEUE_PADDING entries so that a packet may load past the end.
 #define QUEUE_PADDING 16
 
-// Ray queue: origin (m), direction (unit), throughput (RGB), slot of its sample (uint bits). Entries of one
+// Ray queue: origin (m), direction (unit), throughput (RGB; eye rays: not written, it is 1), slot of its sample (uint bits). Entries of one
 // sample are neighbours.
 #define RAY_O 0
 #define RAY_D 3
@@ -173,12 +173,13 @@ WHITTLE_STRUCT(Batch) {
 #define ENTRY_IMPULSE1 4u
 
 // Film planes for each pixel, in the pixel order: compensated sums of RGB, and of luminance squared for the
-// error estimate.
+// error estimate. One sample for each pixel needs the sums only.
 #define FILM_SUM 0
 #define FILM_COMPENSATION 3
 #define FILM_SQUARES 6
 #define FILM_SQUARES_COMPENSATION 7
 #define FILM_PLANES 8
+#define FILM_PLANES_OF_ONE 3
 
 // Auxiliary outputs of a pixel's first sample.
 #define AOV_DEPTH 0

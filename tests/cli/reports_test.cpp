@@ -60,7 +60,7 @@ TEST_P(Plan, IsWhatARenderDoes) {
   for (const auto& stage : stats["stages"]) launched.insert(stage["name"]);
   for (const auto& name : launched) EXPECT_TRUE(planned.contains(name)) << name << " ran unannounced";
   // A stage of an empty queue is planned and not launched; these always have entries.
-  for (const char* name : {"raygen", "intersect", "shade", "accumulate", "film"})
+  for (const char* name : {"raygen", "intersect", "shade", "film"})
     EXPECT_TRUE(planned.contains(name) && launched.contains(name)) << name;
   if (!planned.contains("occlude")) {
     EXPECT_EQ(stats["rays"]["shadow"], 0);

@@ -21,7 +21,7 @@ class FilmBench {
   }
   /// samples: [3][capacity], as many slots as the batch has.
   void add(const device::Batch& batch, std::uint32_t capacity, const std::vector<float>& samples) {
-    bench.stages.run("film", batch.pixels, batch.pixels, batch, capacity, kPixels,
+    bench.stages.run("film", batch.pixels, batch.pixels, batch, capacity, kPixels, std::uint32_t{FILM_PLANES},
                      bench.compute.upload("samples", samples), sums_, counters_);
   }
   std::vector<float> sums() { return bench.read<float>(sums_, FILM_PLANES * kPixels); }

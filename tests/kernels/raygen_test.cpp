@@ -39,10 +39,9 @@ EyeRays eyeRays(test::KernelBench& bench, const Camera& camera, const Settings& 
   const auto count = static_cast<std::uint32_t>(pixels.size());
   const Buffer order = bench.compute.upload("order", pixels);
   const Buffer rays = bench.compute.allocate("rays", RAY_PLANES * sizeof(float) * count);
-  const Buffer radiance = bench.compute.allocate("radiance", 3 * sizeof(float) * count);
   const device::Batch batch{0, count, 0, 1};
-  bench.stages.run("raygen", count, count, cameraToDevice(camera, settings), batch, count, count, order, rays,
-                   radiance);
+  bench.stages.run("raygen", count, count, cameraToDevice(camera, settings), batch, count, count, order,
+                   rays);
   return {bench.read<float>(rays, static_cast<std::size_t>(RAY_PLANES) * count), count};
 }
 

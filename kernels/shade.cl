@@ -1,86 +1,187 @@
-// shade: what happens at each hit. Reads rays and hits of a segment; writes the entry's radiance (emission, background,
-// light that needs no shadow ray), its shadow candidate for the first light, its impulse candidates and their flags.
+// shade: what happens at each hit, LANES of them for each work item. Reads rays and hits of a segment; writes the
+// entry's radiance (emission, background, light that needs no shadow ray), its shadow candidate for the first light, its
+// impulse candidates and their flags. What is written for an entry without its flag means nothing.
 // shade_light: the shadow candidate of a further light, one round for each light, so that memory does not grow with them.
 #include "lib/bsdf.cl"
 #include "lib/light.cl"
 #include "lib/sampler.cl"
 
-/// What is left of the radiance from a hit at distance t after the volume in front of it; 1 where it crossed none.
-INLINE float3 absorptionAlong(const Surfel* s, float t) {
-#if HAS(ABSORPTION)
-  if (!s->front && (s->flags & MATERIAL_VOLUME))
-    return (float3)(s->sigma_a.x > 0.0f ? exp(-s->sigma_a.x * t) : 1.0f, s->sigma_a.y > 0.0f ? exp(-s->sigma_a.y * t) : 1.0f,
-                    s->sigma_a.z > 0.0f ? exp(-s->sigma_a.z * t) : 1.0f);
-#endif
-  return (float3)(1.0f);
+/// The rays of LANES neighbouring entries and what they hit.
+typedef struct {
+  Real3 o, d;
+  Real t, b1, b2;
+  Natural triangle;  // where nothing is hit, one that another lane hits
+  Mask hit;
+} Arrivals;
+
+/// Entry i and its neighbours of a segment that begins at `first` and has `count`.
+INLINE Arrivals loadArrivals(__global const float* rays, __global const float* hits, uint first, uint count, uint capacity, uint i) {
+  Arrivals a;
+  a.triangle = AS_NATURAL(LOAD(hits + (size_t)HIT_TRIANGLE * capacity + i));
+  a.hit = (LANE_NUMBERS < count - i) & (a.triangle != NO_HIT);
+  a.o = loadReal3(rays, capacity, RAY_O, first + i);
+  a.d = loadReal3(rays, capacity, RAY_D, first + i);
+  a.t = LOAD(hits + (size_t)HIT_T * capacity + i);
+  a.b1 = LOAD(hits + (size_t)HIT_B1 * capacity + i);
+  a.b2 = LOAD(hits + (size_t)HIT_B2 * capacity + i);
+  uint triangle[LANES];
+  int hit[LANES];
+  STORE(a.triangle, triangle);
+  STORE(a.hit, hit);
+  uint there = 0;
+  for (uint k = 0; k < LANES; ++k) there = hit[k] ? triangle[k] : there;
+  a.triangle = a.hit ? a.triangle : (Natural)(there);
+  return a;
 }
 
+/// exp(-sigma t), 1 where sigma is 0; lane by lane, since exp of a vector may round otherwise.
+INLINE Real absorbed(Real sigma, Real t) {
+  float own[LANES], distance[LANES];
+  STORE(sigma, own);
+  STORE(t, distance);
+  for (uint k = 0; k < LANES; ++k) own[k] = own[k] > 0.0f ? exp(-own[k] * distance[k]) : 1.0f;
+  return LOAD(own);
+}
+
+/// What is left of the radiance from hits at distance t after the volume in front of them; 1 where it crossed none.
+INLINE Real3 absorptionAlong(const Surfel* s, Real t) {
+  const Real3 none = same3((float3)(1.0f));
+#if HAS(ABSORPTION)
+  const Mask inside = !s->front & ((s->flags & MATERIAL_VOLUME) != 0);
+  if (some(inside))
+    return choose3(inside, real3(absorbed(s->sigma_a.x, t), absorbed(s->sigma_a.y, t), absorbed(s->sigma_a.z, t)), none);
+#endif
+  return none;
+}
+
+#if HAS(BACKGROUND)
+INLINE Real3 backgroundAlong(const SceneView* scene, const RenderConstants* constants, Real3 d, Mask seen) {
+#if HAS(BACKGROUND_MAP)
+  float own[3][LANES];
+  int wanted[LANES];
+  STORE(d.x, own[0]);
+  STORE(d.y, own[1]);
+  STORE(d.z, own[2]);
+  STORE(seen, wanted);
+  for (uint k = 0; k < LANES; ++k) {
+    if (!wanted[k]) continue;
+    const float3 radiance = backgroundRadiance(scene, constants, (float3)(own[0][k], own[1][k], own[2][k]));
+    own[0][k] = radiance.x, own[1][k] = radiance.y, own[2][k] = radiance.z;
+  }
+  return real3(LOAD(own[0]), LOAD(own[1]), LOAD(own[2]));
+#else
+  return same3(backgroundRadiance(scene, constants, (float3)(0.0f)));
+#endif
+}
+#endif
+
 #if HAS(LIGHTS)
-/// Direct light from one light: a shadow candidate, or added to `radiance` at once where nothing can be in the way.
-/// Returns ENTRY_SHADOW for a candidate, else 0.
-INLINE uint directLight(const SceneView* scene, const RenderConstants* constants, const Surfel* s, float3 w_o, uint lightIndex,
-                 float3 attenuation, uint i, uint capacity, __global float* shadows, float3* radiance) {
+/// Direct light from one light where `lit`: a shadow candidate, or added to `radiance` at once where nothing can be in
+/// the way. Returns ENTRY_SHADOW for a candidate, else 0.
+INLINE Natural directLight(const SceneView* scene, const RenderConstants* constants, const Surfel* s, Real3 w_o, Mask lit,
+                           uint lightIndex, Real3 attenuation, uint i, uint capacity, __global float* shadows, Real3* radiance) {
 #if HAS(UNLIT)
-  if (s->flags & MATERIAL_UNLIT) return 0;
+  lit = lit & ((s->flags & MATERIAL_UNLIT) == 0);
 #endif
   __global const DeviceLight* light = scene->lights + lightIndex;
   const Illumination arriving = illuminationAt(light, s->position);
-  const float cosine = dot3(s->n, arriving.w_i);
-  if (!(cosine > 0.0f) || !(dot3(s->n_g, arriving.w_i) > 0.0f) || !anyPositive(arriving.biradiance)) return 0;
-  const float3 f = finiteScattering(constants, s, w_o, arriving.w_i);
-  const float3 contribution = s->alpha * f * arriving.biradiance * cosine;
-  if (!anyPositive(contribution)) return 0;
+  const Real cosine = dots(s->n, arriving.w_i);
+  lit = lit & (cosine > 0.0f) & (dots(s->n_g, arriving.w_i) > 0.0f) & somePositive(arriving.biradiance);
+  if (!some(lit)) return (Natural)(0);
+  const Real3 f = finiteScattering(constants, s, w_o, arriving.w_i);
+  const Real3 contribution = scale3(cosine, mul3(scale3(s->alpha, f), arriving.biradiance));
+  lit = lit & somePositive(contribution);
+  const Real3 carried = mul3(contribution, attenuation);
 #if HAS(SHADOWS)
   if (light->castsShadows) {
-    storePlanes3(shadows, capacity, SHADOW_O, i, s->position + s->n_g * s->bump);
-    storePlanes3(shadows, capacity, SHADOW_D, i, arriving.w_i);
-    const float length = arriving.distance < INFINITY ? arriving.distance - 2.0f * s->bump : MAXFLOAT;
-    shadows[(size_t)SHADOW_LENGTH * capacity + i] = length > 0.0f ? length : 0.0f;
-    storePlanes3(shadows, capacity, SHADOW_CONTRIBUTION, i, contribution * attenuation);
-    return ENTRY_SHADOW;
+    storeReal3(shadows, capacity, SHADOW_O, i, add3(s->position, scale3(s->bump, s->n_g)));
+    storeReal3(shadows, capacity, SHADOW_D, i, arriving.w_i);
+    const Real free = arriving.distance - 2.0f * s->bump;
+    const Real length = arriving.distance < INFINITY ? free : (Real)(MAXFLOAT);
+    STORE(length > 0.0f ? length : (Real)(0.0f), shadows + (size_t)SHADOW_LENGTH * capacity + i);
+    storeReal3(shadows, capacity, SHADOW_CONTRIBUTION, i, carried);
+    return lit ? (Natural)(ENTRY_SHADOW) : (Natural)(0);
   }
 #endif
-  *radiance += contribution * attenuation;
-  return 0;
+  *radiance = choose3(lit, add3(*radiance, carried), *radiance);
+  return (Natural)(0);
 }
 #endif
 
 #if HAS(IMPULSES)
-/// Stores impulse k of entry i if it carries anything; returns its flag.
-INLINE uint storeImpulse(const Surfel* s, const Impulse* impulse, float3 throughput, uint k, uint i, uint capacity,
-                  __global float* impulses) {
-  const float3 carried = throughput * impulse->magnitude;
-  if (!anyPositive(carried) || !isFinite3(impulse->w_i)) return 0;
-  const float side = dot3(s->n_g, impulse->w_i) > 0.0f ? s->bump : -s->bump;
+/// Stores impulse k of the entries from i where it carries anything; returns its flags.
+INLINE Natural storeImpulse(const Surfel* s, const Impulse* impulse, Mask hit, Real3 throughput, uint k, uint i, uint capacity,
+                            __global float* impulses) {
+  const Real3 carried = mul3(throughput, impulse->magnitude);
+  const Mask sent = hit & somePositive(carried) & finite3(impulse->w_i);
+  if (!some(sent)) return (Natural)(0);
+  const Real side = dots(s->n_g, impulse->w_i) > 0.0f ? s->bump : -s->bump;
   const uint base = k * IMPULSE_PLANES;
-  storePlanes3(impulses, capacity, base + IMPULSE_O, i, s->position + s->n_g * side);
-  storePlanes3(impulses, capacity, base + IMPULSE_D, i, impulse->w_i);
-  storePlanes3(impulses, capacity, base + IMPULSE_THROUGHPUT, i, carried);
-  return ENTRY_IMPULSE0 << k;
+  storeReal3(impulses, capacity, base + IMPULSE_O, i, add3(s->position, scale3(side, s->n_g)));
+  storeReal3(impulses, capacity, base + IMPULSE_D, i, impulse->w_i);
+  storeReal3(impulses, capacity, base + IMPULSE_THROUGHPUT, i, carried);
+  return sent ? (Natural)(ENTRY_IMPULSE0 << k) : (Natural)(0);
 }
 
 /// Keeps one of two impulses with probability proportional to its luminance, divided by that probability.
-INLINE void chooseOne(Impulse* first, Impulse* second, float u) {
-  const float a = luminance(first->magnitude), b = luminance(second->magnitude);
-  const float sum = a + b;
-  if (!(sum > 0.0f)) return;
-  const float p = a / sum;
-  if (u < p) {
-    first->magnitude = first->magnitude / p;
-    second->magnitude = (float3)(0.0f);
-  } else {
-    second->magnitude = second->magnitude / (1.0f - p);
-    first->magnitude = (float3)(0.0f);
+INLINE void chooseOne(Impulse* first, Impulse* second, Real u) {
+  const Real3 zero = same3((float3)(0.0f));
+  const Real a = luminances(first->magnitude), b = luminances(second->magnitude);
+  const Real sum = a + b;
+  const Mask any = sum > 0.0f;
+  const Real p = a / sum;
+  const Mask one = u < p;
+  first->magnitude = choose3(any, choose3(one, over3(first->magnitude, p), zero), first->magnitude);
+  second->magnitude = choose3(any, choose3(one, zero, over3(second->magnitude, 1.0f - p)), second->magnitude);
+}
+#endif
+
+#if HAS(AOVS) || HAS(ONE_IMPULSE)
+/// What the entries' samples are called.
+typedef struct {
+  uint place[LANES];   // in the pixel order's plane: y width + x
+  uint sample[LANES];
+} SampleNames;
+
+INLINE SampleNames sampleNames(const Batch* batch, uint width, __global const uint* pixelOrder, __global const float* slots, uint active) {
+  SampleNames names;
+  for (uint k = 0; k < LANES; ++k) {
+    const uint slot = as_uint(slots[k < active ? k : active - 1]);
+    const uint packed = pixelOrder[batch->firstPixel + slot / batch->samples];
+    names.place[k] = (packed >> 16) * width + (packed & 0xffffu);
+    names.sample[k] = batch->firstSample + slot % batch->samples;
   }
+  return names;
+}
+#endif
+
+#if HAS(ONE_IMPULSE)
+INLINE Real randomNumbers(const SampleNames* names, uint dimension, uint seed) {
+  float own[LANES];
+  for (uint k = 0; k < LANES; ++k) own[k] = unitFloat(hash4(names->place[k], names->sample[k], dimension, seed));
+  return LOAD(own);
 }
 #endif
 
 #if HAS(AOVS)
-INLINE void storeAov(__global float* aovs, uint pixels, uint pixel, float t, float primitive, float3 n, float3 albedo) {
-  aovs[(size_t)AOV_DEPTH * pixels + pixel] = t;
-  aovs[(size_t)AOV_PRIMITIVE * pixels + pixel] = primitive;
-  storePlanes3(aovs, pixels, AOV_NORMAL, pixel, n);
-  storePlanes3(aovs, pixels, AOV_ALBEDO, pixel, albedo);
+/// Auxiliary outputs of the pixels whose first sample is among the entries.
+INLINE void storeAovs(const SceneView* scene, const SampleNames* names, const Arrivals* a, const Surfel* s, uint active, uint pixels,
+                      __global float* aovs) {
+  float own[AOV_PLANES][LANES];
+  uint triangle[LANES];
+  int hit[LANES];
+  const Real values[AOV_PLANES] = {a->t, a->t, s->n.x, s->n.y, s->n.z, s->baseColor.x, s->baseColor.y, s->baseColor.z};
+  for (uint n = 0; n < AOV_PLANES; ++n) STORE(values[n], own[n]);
+  STORE(a->triangle, triangle);
+  STORE(a->hit, hit);
+  for (uint k = 0; k < active; ++k) {
+    if (names->sample[k] != 0) continue;
+    own[AOV_PRIMITIVE][k] = (float)scene->triangles[triangle[k]].primitive;
+    for (uint n = 0; n < AOV_PLANES; ++n) {
+      const float missed = n == AOV_DEPTH ? INFINITY : (n == AOV_PRIMITIVE ? -1.0f : 0.0f);
+      aovs[(size_t)n * pixels + names->place[k]] = hit[k] ? own[n][k] : missed;
+    }
+  }
 }
 #endif
 
@@ -92,81 +193,72 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
                     __global float* impulses,       // [2 IMPULSE_PLANES][capacity]
                     __global uint* flags,           // [capacity] ENTRY_…
                     __global float* aovs) {         // [AOV_PLANES][pixels]
-  const uint i = get_global_id(0);
+  const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;
   const RenderConstants own = constants;
-  const uint triangleIndex = as_uint(hits[(size_t)HIT_TRIANGLE * capacity + i]);
-  const float3 d = loadPlanes3(rays, capacity, RAY_D, first + i);
+  const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
 #if HAS(AOVS) || HAS(ONE_IMPULSE)
-  const uint slot = as_uint(rays[(size_t)RAY_SLOT * capacity + first + i]);
-  const uint packed = pixelOrder[batch.firstPixel + slot / batch.samples];
-  const uint sample = batch.firstSample + slot % batch.samples;
-  const uint pixel = (packed >> 16) * width + (packed & 0xffffu);
+  const Batch ownBatch = batch;
+  const uint active = count - i < LANES ? count - i : LANES;
+  const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays + (size_t)RAY_SLOT * capacity + first + i, active);
 #endif
-  uint found = 0;
-  float3 radiance = (float3)(0.0f);
-  if (triangleIndex == NO_HIT) {
+  Natural found = (Natural)(0);
+  Real3 radiance = same3((float3)(0.0f));
 #if HAS(BACKGROUND)
-    radiance = backgroundRadiance(&scene, &own, d);
+  radiance = backgroundAlong(&scene, &own, a.d, !a.hit);
 #endif
-#if HAS(AOVS)
-    if (bounce == 1 && sample == 0 && aovs) storeAov(aovs, pixels, pixel, INFINITY, -1.0f, (float3)(0.0f), (float3)(0.0f));
-#endif
-  } else {
-    const float t = hits[(size_t)HIT_T * capacity + i];
-    const Surfel s = surfelAt(&scene, &own, triangleIndex, loadPlanes3(rays, capacity, RAY_O, first + i), d, t,
-                              hits[(size_t)HIT_B1 * capacity + i], hits[(size_t)HIT_B2 * capacity + i]);
-    const float3 attenuation = absorptionAlong(&s, t);
-    radiance = s.alpha * s.emission * attenuation;
+  Surfel s;
+  if (some(a.hit)) {
+    s = surfelAt(&scene, &own, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
+    const Real3 w_o = minus3(a.d);
+    const Real3 attenuation = absorptionAlong(&s, a.t);
+    Real3 shaded = mul3(scale3(s.alpha, s.emission), attenuation);
 #if HAS(UNLIT)
-    if (s.flags & MATERIAL_UNLIT) radiance = s.alpha * s.baseColor * attenuation;
+    shaded = choose3((s.flags & MATERIAL_UNLIT) != 0, mul3(scale3(s.alpha, s.baseColor), attenuation), shaded);
 #endif
 #if HAS(LIGHTS)
-    if (lights) found |= directLight(&scene, &own, &s, -d, 0, attenuation, i, capacity, shadows, &radiance);
+    if (lights) found = found | directLight(&scene, &own, &s, w_o, a.hit, 0, attenuation, i, capacity, shadows, &shaded);
 #endif
 #if HAS(IMPULSES)
     if (bounce < lastBounce) {
       Impulse one, two;
-      impulsesAt(&own, &s, -d, &one, &two);
+      impulsesAt(&own, &s, w_o, &one, &two);
 #if HAS(ONE_IMPULSE)
-      chooseOne(&one, &two, unitFloat(hash4(pixel, sample, 16u + bounce, own.seed)));
+      chooseOne(&one, &two, randomNumbers(&names, 16u + bounce, own.seed));
 #endif
-      const float3 carried = bounce > 1 ? loadPlanes3(rays, capacity, RAY_THROUGHPUT, first + i) : (float3)(1.0f);
-      const float3 throughput = carried * attenuation;
-      found |= storeImpulse(&s, &one, throughput, 0, i, capacity, impulses);
-      found |= storeImpulse(&s, &two, throughput, 1, i, capacity, impulses);
+      Real3 throughput = attenuation;
+      if (bounce > 1) throughput = mul3(loadReal3(rays, capacity, RAY_THROUGHPUT, first + i), attenuation);
+      found = found | storeImpulse(&s, &one, a.hit, throughput, 0, i, capacity, impulses);
+      found = found | storeImpulse(&s, &two, a.hit, throughput, 1, i, capacity, impulses);
     }
 #endif
-#if HAS(AOVS)
-    if (bounce == 1 && sample == 0 && aovs)
-      storeAov(aovs, pixels, pixel, t, (float)triangles[triangleIndex].primitive, s.n, s.baseColor);
-#endif
+    radiance = choose3(a.hit, shaded, radiance);
   }
-  storePlanes3(entryRadiance, capacity, 0, i, radiance);
-  if (flags) flags[i] = found;
+#if HAS(AOVS)
+  if (bounce == 1 && aovs) storeAovs(&scene, &names, &a, &s, active, pixels, aovs);
+#endif
+  storeReal3(entryRadiance, capacity, 0, i, radiance);
+  if (flags) STORE(found, flags + i);
 }
 
 #if HAS(LIGHTS)
 __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const uint first, const uint count,
                           const uint capacity, const uint light, __global const float* rays, __global const float* hits,
                           __global float* entryRadiance, __global float* shadows, __global uint* flags) {
-  const uint i = get_global_id(0);
+  const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;
   const RenderConstants own = constants;
-  const uint triangleIndex = as_uint(hits[(size_t)HIT_TRIANGLE * capacity + i]);
-  uint found = 0;
-  if (triangleIndex != NO_HIT) {
-    const float3 d = loadPlanes3(rays, capacity, RAY_D, first + i);
-    const float t = hits[(size_t)HIT_T * capacity + i];
-    const Surfel s = surfelAt(&scene, &own, triangleIndex, loadPlanes3(rays, capacity, RAY_O, first + i), d, t,
-                              hits[(size_t)HIT_B1 * capacity + i], hits[(size_t)HIT_B2 * capacity + i]);
-    const float3 attenuation = absorptionAlong(&s, t);
-    float3 radiance = loadPlanes3(entryRadiance, capacity, 0, i);
-    found = directLight(&scene, &own, &s, -d, light, attenuation, i, capacity, shadows, &radiance);
-    storePlanes3(entryRadiance, capacity, 0, i, radiance);
+  const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
+  Natural found = (Natural)(0);
+  if (some(a.hit)) {
+    const Surfel s = surfelAt(&scene, &own, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
+    const Real3 attenuation = absorptionAlong(&s, a.t);
+    Real3 radiance = loadReal3(entryRadiance, capacity, 0, i);
+    found = directLight(&scene, &own, &s, minus3(a.d), a.hit, light, attenuation, i, capacity, shadows, &radiance);
+    storeReal3(entryRadiance, capacity, 0, i, radiance);
   }
-  if (flags) flags[i] = (flags[i] & ~ENTRY_SHADOW) | found;
+  if (flags) STORE((LOAD(flags + i) & ~ENTRY_SHADOW) | found, flags + i);
 }
 #endif

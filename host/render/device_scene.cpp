@@ -206,11 +206,14 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tre
   }
   d.triangles = compute.upload("triangles", leafTriangles(scene, tree.order));
   std::vector<std::uint32_t> corners;
-  corners.reserve(scene.triangles.size() * 3 + 3);
-  for (const auto& t : scene.triangles) corners.insert(corners.end(), {t.v0, t.v1, t.v2});
+  corners.reserve(tree.order.size() * 3 + 3);
+  for (const std::uint32_t i : tree.order) {
+    const Triangle& t = scene.triangles[i];
+    corners.insert(corners.end(), {t.v0, t.v1, t.v2});
+  }
   const bool interpolates = features.has(Feature::VERTEX_NORMALS) || features.has(Feature::TEXTURES) ||
                             features.has(Feature::VERTEX_COLORS);
-  if (corners.empty()) corners.resize(3);
+  corners.resize(corners.size() + 3);  // of the degenerate triangle
   if (interpolates) d.corners = compute.upload("corners", corners);
   if (features.has(Feature::VERTEX_NORMALS)) d.normals = compute.upload("normals", scene.normals);
   if (features.has(Feature::NORMAL_TEXTURE)) d.tangents = compute.upload("tangents", scene.tangents);

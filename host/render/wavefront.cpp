@@ -97,7 +97,7 @@ void Wavefront::intersect(const Buffer& queue, Segment segment) {
 }
 
 void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce) {
-  stages_.run("shade", segment.count(), segment.count(), setup_.scene, setup_.constants, batch_,
+  stages_.run("shade", laneItems(segment.count()), segment.count(), setup_.scene, setup_.constants, batch_,
               segment.begin, segment.count(), queues_.capacity(), bounce, setup_.bounces, setup_.camera.width,
               setup_.camera.width * setup_.camera.height, pixelOrder_, queue, queues_.hits, *radiance_,
               queues_.shadows, queues_.impulses, queues_.flags, aovs_);
@@ -105,7 +105,7 @@ void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce
 }
 
 void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t light) {
-  stages_.run("shade_light", segment.count(), segment.count(), setup_.scene, setup_.constants, segment.begin,
+  stages_.run("shade_light", laneItems(segment.count()), segment.count(), setup_.scene, setup_.constants, segment.begin,
               segment.count(), queues_.capacity(), light, queue, queues_.hits, *radiance_, queues_.shadows,
               queues_.flags);
 }

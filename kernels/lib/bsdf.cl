@@ -1,94 +1,106 @@
-// Scattering at a surfel: the finite part (Lambert and the glTF microfacet lobe) for direct light, and the impulses
+// Scattering at surfels: the finite part (Lambert and the glTF microfacet lobe) for direct light, and the impulses
 // (mirror reflection, refraction, straight transmission). Formulas: host/reference/README.md.
-#include "lib/surfel.cl"
+#include "lib/surfels.cl"
 
-INLINE int isSmooth(const RenderConstants* constants, const Surfel* s) { return s->roughness < constants->mirrorRoughness; }
+INLINE Mask isSmooth(const RenderConstants* constants, const Surfel* s) { return s->roughness < constants->mirrorRoughness; }
 
 /// Ratio of indices n_t/n_i for light arriving from the viewer's side.
-INLINE float interfaceEta(const Surfel* s) {
-  return (s->front || !(s->flags & MATERIAL_VOLUME)) ? s->ior : 1.0f / s->ior;
+INLINE Real interfaceEta(const Surfel* s) {
+  const Mask outside = s->front | ((s->flags & MATERIAL_VOLUME) == 0);
+  return outside ? s->ior : 1.0f / s->ior;
 }
 
-/// Dielectric reflectance seen along w_o; total: set at total reflection. cosT as in fresnelDielectric.
-INLINE float3 dielectricReflectance(const Surfel* s, float cosine, float* cosT, int* total) {
-  *total = 0;
-  *cosT = cosine;
-  const float ratio = (s->ior - 1.0f) / (s->ior + 1.0f);
-  const float r0 = ratio * ratio;
-  if (s->ior == 0.0f || r0 >= 1.0f) return s->specularF0;
-  const float r = fresnelDielectric(cosine, interfaceEta(s), cosT);
-  if (r >= 1.0f) {
-    *total = *cosT == 0.0f;
-    if (*total) return (float3)(1.0f);
-  }
+/// fresnelDielectric for each lane; total: where no light passes.
+INLINE Real fresnelDielectrics(Real cosine, Real eta, Mask* total) {
+  const Real sin2 = 1.0f - cosine * cosine;
+  const Real sin2T = (sin2 > 0.0f ? sin2 : (Real)(0.0f)) / (eta * eta);
+  *total = !(sin2T < 1.0f);
+  const Real c = sqrt(1.0f - sin2T);
+  const Real s = (cosine - eta * c) / (cosine + eta * c);
+  const Real p = (eta * cosine - c) / (eta * cosine + c);
+  const Real r = eta == 1.0f ? (Real)(0.0f) : 0.5f * (s * s + p * p);
+  return *total ? (Real)(1.0f) : r;
+}
+
+INLINE Real3 schlick(Real3 f0, Real3 f90, Real cosine) {
+  return add3(f0, scale3(schlickWeight(cosine), sub3(f90, f0)));
+}
+
+/// Dielectric reflectance seen along w_o; total: set at total reflection.
+INLINE Real3 dielectricReflectance(const Surfel* s, Real cosine, Mask* total) {
+  const Real ratio = (s->ior - 1.0f) / (s->ior + 1.0f);
+  const Real r0 = ratio * ratio;
+  const Mask opaque = (s->ior == 0.0f) | (r0 >= 1.0f);
+  const Real r = fresnelDielectrics(cosine, interfaceEta(s), total);
+  *total = *total & !opaque;
+  Real3 reflectance = real3(r, r, r);
 #if HAS(SPECULAR_EXTENSION)
-  if (s->specularF90 == 1.0f && s->specularF0.x == r0 && s->specularF0.y == r0 && s->specularF0.z == r0)
-    return (float3)(r);  // untinted: the bits of the kernels without this extension
-  const float3 scaled = s->specularF0 + ((float3)(s->specularF90) - s->specularF0) * ((r - r0) / (1.0f - r0));
-  return clamp(scaled, 0.0f, 1.0f);  // dense dielectrics dip below R0
-#else
-  return (float3)(r);
+  // Untinted: the bits of the kernels without this extension.
+  const Mask plain = (s->specularF90 == 1.0f) & (s->specularF0.x == r0) & (s->specularF0.y == r0) & (s->specularF0.z == r0);
+  const Real3 f90 = real3(s->specularF90, s->specularF90, s->specularF90);
+  const Real3 scaled = add3(s->specularF0, scale3((r - r0) / (1.0f - r0), sub3(f90, s->specularF0)));
+  // Dense dielectrics dip below R0.
+  reflectance = choose3(plain | *total, reflectance, real3(clampUnit(scaled.x), clampUnit(scaled.y), clampUnit(scaled.z)));
 #endif
+  return choose3(opaque, s->specularF0, reflectance);
 }
 
 /// f(w_i, w_o), 1/sr, without impulses; both directions on the side of n.
-INLINE float3 finiteScattering(const RenderConstants* constants, const Surfel* s, float3 w_o, float3 w_i) {
-  const float cosO = dot3(s->n, w_o);
-  const float dielectric = 1.0f - s->metallic;
-  const float3 diffuse = s->baseColor * (1.0f / PI) * (1.0f - s->transmission);
-  if (isSmooth(constants, s)) {
-    float cosT;
-    int total;
-    const float3 r = dielectricReflectance(s, fmin(cosO, 1.0f), &cosT, &total);
-    return dielectric * ((float3)(1.0f) - r) * diffuse;
-  }
+INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i) {
+  const Real cosO = dots(s->n, w_o);
+  const Real dielectric = 1.0f - s->metallic;
+  const Real3 diffuse = scale3(1.0f - s->transmission, scale3((Real)(1.0f / PI), s->baseColor));
+  const Mask smooth = isSmooth(constants, s);
+  Real3 f = scale3(dielectric, diffuse);
 #if HAS(MICROFACET)
-  const float cosI = dot3(s->n, w_i);
-  const float3 h = normalize3(w_i + w_o);
-  const float cosH = dot3(s->n, h);
-  const float cosD = clamp(dot3(w_o, h), 0.0f, 1.0f);
-  const float squared = s->roughness * s->roughness;
-  const float alpha = squared > 1e-3f ? squared : 1e-3f;  // a mirror's lobe would be 0/0
-  const float a2 = alpha * alpha;
-  const float k = cosH * cosH * (a2 - 1.0f) + 1.0f;
-  const float distribution = a2 / (PI * k * k);
-  const float visibility =
-      0.5f / (cosI * sqrt(a2 + (1.0f - a2) * cosO * cosO) + cosO * sqrt(a2 + (1.0f - a2) * cosI * cosI));
-  const float lobe = distribution * visibility;
-  const float3 fresnel = schlick(s->specularF0, (float3)(s->specularF90), cosD);
-  const float largest = fmax(fmax(fresnel.x, fresnel.y), fresnel.z);
-  float3 f = dielectric * ((1.0f - largest) * diffuse + fresnel * lobe);
+  if (some(!smooth)) {
+    const Real cosI = dots(s->n, w_i);
+    const Real3 h = normalized(add3(w_i, w_o));
+    const Real cosH = dots(s->n, h);
+    const Real cosD = clampUnit(dots(w_o, h));
+    const Real squared = s->roughness * s->roughness;
+    const Real alpha = squared > 1e-3f ? squared : (Real)(1e-3f);  // a mirror's lobe would be 0/0
+    const Real a2 = alpha * alpha;
+    const Real k = cosH * cosH * (a2 - 1.0f) + 1.0f;
+    const Real distribution = a2 / (PI * k * k);
+    const Real visibility =
+        0.5f / (cosI * sqrt(a2 + (1.0f - a2) * cosO * cosO) + cosO * sqrt(a2 + (1.0f - a2) * cosI * cosI));
+    const Real lobe = distribution * visibility;
+    const Real3 fresnel = schlick(s->specularF0, real3(s->specularF90, s->specularF90, s->specularF90), cosD);
+    const Real largest = largestOf(fresnel.x, fresnel.y, fresnel.z);
+    f = scale3(dielectric, add3(scale3(1.0f - largest, diffuse), scale3(lobe, fresnel)));
 #if HAS(METAL)
-  f += s->metallic * schlick(s->baseColor, (float3)(1.0f), cosD) * lobe;
+    f = add3(f, scale3(lobe, scale3(s->metallic, schlick(s->baseColor, same3((float3)(1.0f)), cosD))));
 #endif
+  }
+#endif
+  if (some(smooth)) {
+    Mask total;
+    const Real3 r = dielectricReflectance(s, cosO < 1.0f ? cosO : (Real)(1.0f), &total);
+    const Real3 passing = real3(dielectric * (1.0f - r.x), dielectric * (1.0f - r.y), dielectric * (1.0f - r.z));
+    f = choose3(smooth, mul3(passing, diffuse), f);
+  }
   return f;
-#else
-  return dielectric * diffuse;
-#endif
 }
 
-/// A direction with an RGB magnitude; magnitude 0: there is none.
+/// A direction with an RGB magnitude for each lane; magnitude 0: there is none.
 typedef struct {
-  float3 w_i;
-  float3 magnitude;
+  Real3 w_i;
+  Real3 magnitude;
 } Impulse;
 
 #if HAS(MIRROR) || HAS(REFRACTION)
-INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, float3 w_o, float cosine, float3 reflectance, int total) {
+INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real cosine, Real3 reflectance, Mask total) {
   Impulse impulse;
-  const float3 n = s->n;
-  impulse.w_i = 2.0f * cosine * n - w_o;
-  if (!(dot3(s->n_g, impulse.w_i) > 0.0f)) impulse.w_i = 2.0f * dot3(s->n_g, w_o) * s->n_g - w_o;
-  impulse.w_i = normalize3(impulse.w_i);
-  impulse.magnitude = (float3)(0.0f);
-  const int inside = total && (s->flags & MATERIAL_VOLUME) && s->transmission > 0.0f;
-  if (isSmooth(constants, s) || inside) {
-    impulse.magnitude = (1.0f - s->metallic) * reflectance;
+  const Mask inside = total & ((s->flags & MATERIAL_VOLUME) != 0) & (s->transmission > 0.0f);
+  const Real3 aboutN = sub3(scale3(2.0f * cosine, s->n), w_o);
+  const Real3 aboutG = sub3(scale3(2.0f * dots(s->n_g, w_o), s->n_g), w_o);
+  impulse.w_i = normalized(choose3(dots(s->n_g, aboutN) > 0.0f, aboutN, aboutG));
+  Real3 magnitude = scale3(1.0f - s->metallic, reflectance);
 #if HAS(METAL)
-    impulse.magnitude += s->metallic * schlick(s->baseColor, (float3)(1.0f), cosine);
+  magnitude = add3(magnitude, scale3(s->metallic, schlick(s->baseColor, same3((float3)(1.0f)), cosine)));
 #endif
-    impulse.magnitude *= s->alpha;
-  }
+  impulse.magnitude = choose3(isSmooth(constants, s) | inside, scale3(s->alpha, magnitude), same3((float3)(0.0f)));
   return impulse;
 }
 #endif
@@ -96,71 +108,79 @@ INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, 
 #if HAS(TRANSMISSION)
 #if HAS(REFRACTION)
 /// Refracted direction about n, or 0 at total reflection.
-INLINE float3 refracted(float3 n, float3 w_o, float eta) {
-  const float cosine = fmin(dot3(n, w_o), 1.0f);
-  const float sin2 = 1.0f - cosine * cosine;
-  const float sin2T = (sin2 > 0.0f ? sin2 : 0.0f) / (eta * eta);
-  if (!(sin2T < 1.0f)) return (float3)(0.0f);
-  return normalize3((cosine / eta - sqrt(1.0f - sin2T)) * n - w_o / eta);
+INLINE Real3 refracted(Real3 n, Real3 w_o, Real eta) {
+  const Real along = dots(n, w_o);
+  const Real cosine = along < 1.0f ? along : (Real)(1.0f);
+  const Real sin2 = 1.0f - cosine * cosine;
+  const Real sin2T = (sin2 > 0.0f ? sin2 : (Real)(0.0f)) / (eta * eta);
+  const Real3 w_t = normalized(sub3(scale3(cosine / eta - sqrt(1.0f - sin2T), n), over3(w_o, eta)));
+  return choose3(sin2T < 1.0f, w_t, same3((float3)(0.0f)));
 }
 #endif
 
-INLINE Impulse transmissionImpulse(const Surfel* s, float3 w_o, float3 reflectance) {
+INLINE Impulse transmissionImpulse(const Surfel* s, Real3 w_o, Real3 reflectance) {
   Impulse impulse;
-  impulse.w_i = -w_o;
-  impulse.magnitude = s->alpha * (1.0f - s->metallic) * s->transmission * s->baseColor * ((float3)(1.0f) - reflectance);
+  const Real3 zero = same3((float3)(0.0f));
+  impulse.w_i = minus3(w_o);
+  const Real passing = s->alpha * (1.0f - s->metallic) * s->transmission;
+  impulse.magnitude = mul3(scale3(passing, s->baseColor), real3(1.0f - reflectance.x, 1.0f - reflectance.y, 1.0f - reflectance.z));
 #if HAS(REFRACTION)
-  const float eta = interfaceEta(s);
-  if ((s->flags & MATERIAL_VOLUME) && s->ior == 0.0f) {
-    impulse.magnitude = (float3)(0.0f);
-  } else if ((s->flags & MATERIAL_VOLUME) && eta != 1.0f) {
-    impulse.w_i = refracted(s->n, w_o, eta);
-    if (!(dot3(s->n_g, impulse.w_i) < 0.0f)) impulse.w_i = refracted(s->n_g, w_o, eta);
-    if (!(dot3(s->n_g, impulse.w_i) < 0.0f)) impulse.magnitude = (float3)(0.0f);
-  }
+  const Real eta = interfaceEta(s);
+  const Mask volume = (s->flags & MATERIAL_VOLUME) != 0;
+  const Mask bends = volume & (s->ior != 0.0f) & (eta != 1.0f);
+  Real3 w_t = refracted(s->n, w_o, eta);
+  w_t = choose3(dots(s->n_g, w_t) < 0.0f, w_t, refracted(s->n_g, w_o, eta));
+  impulse.w_i = choose3(bends, w_t, impulse.w_i);
+  const Mask stopped = (volume & (s->ior == 0.0f)) | (bends & !(dots(s->n_g, w_t) < 0.0f));
+  impulse.magnitude = choose3(stopped, zero, impulse.magnitude);
 #endif
+  impulse.w_i = choose3(s->transmission > 0.0f, impulse.w_i, minus3(w_o));
+  impulse.magnitude = choose3(s->transmission > 0.0f, impulse.magnitude, zero);
   return impulse;
 }
 #endif
 
-/// The impulses of a surfel, at most two, in their fixed order.
-INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, float3 w_o, Impulse* first, Impulse* second) {
-  first->magnitude = (float3)(0.0f);
-  second->magnitude = (float3)(0.0f);
-  first->w_i = second->w_i = -w_o;
+/// The impulses of surfels, at most two each, in their fixed order.
+INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 w_o, Impulse* first, Impulse* second) {
+  const Real3 zero = same3((float3)(0.0f)), back = minus3(w_o);
+  first->magnitude = second->magnitude = zero;
+  first->w_i = second->w_i = back;
 #if HAS(IMPULSES)
-  const float straight = 1.0f - s->alpha;
-#if HAS(UNLIT)
-  if (s->flags & MATERIAL_UNLIT) {
-    first->magnitude = (float3)(straight);
-    return;
-  }
-#endif
 #if HAS(MIRROR) || HAS(REFRACTION) || HAS(TRANSMISSION)
-  const float cosine = fmin(dot3(s->n, w_o), 1.0f);
-  float cosT;
-  int total;
-  const float3 reflectance = dielectricReflectance(s, cosine, &cosT, &total);
-#endif
+  if (some(isSmooth(constants, s) | (s->transmission > 0.0f))) {
+    const Real along = dots(s->n, w_o);
+    const Real cosine = along < 1.0f ? along : (Real)(1.0f);
+    Mask total;
+    const Real3 reflectance = dielectricReflectance(s, cosine, &total);
 #if HAS(MIRROR) || HAS(REFRACTION)
-  *first = mirrorImpulse(constants, s, w_o, cosine, reflectance, total);
+    *first = mirrorImpulse(constants, s, w_o, cosine, reflectance, total);
 #endif
 #if HAS(TRANSMISSION)
-  if (s->transmission > 0.0f) *second = transmissionImpulse(s, w_o, reflectance);
+    if (some(s->transmission > 0.0f)) *second = transmissionImpulse(s, w_o, reflectance);
 #endif
-#if HAS(ALPHA_BLEND)
-  if (s->alpha < 1.0f) {
-    const int bends = (s->flags & MATERIAL_VOLUME) && anyPositive(second->magnitude);
-    if (bends) {
-      first->w_i = -w_o;  // three directions would be needed: the reflection is left out
-      first->magnitude = (float3)(straight);
-    } else {
-      Impulse reflection = *first;
-      first->w_i = -w_o;
-      first->magnitude = second->magnitude + (float3)(straight);
-      *second = reflection;
-    }
   }
+#endif
+  const Real straight = 1.0f - s->alpha;
+  const Real3 straight3 = real3(straight, straight, straight);
+#if HAS(ALPHA_BLEND)
+  const Mask thin = s->alpha < 1.0f;
+  if (some(thin)) {
+    // Three directions would be needed where it bends: the reflection is left out.
+    const Mask bends = ((s->flags & MATERIAL_VOLUME) != 0) & somePositive(second->magnitude);
+    const Impulse reflection = *first;
+    const Real3 through = choose3(bends, straight3, add3(second->magnitude, straight3));
+    first->w_i = choose3(thin, back, reflection.w_i);
+    first->magnitude = choose3(thin, through, reflection.magnitude);
+    second->w_i = choose3(thin & !bends, reflection.w_i, second->w_i);
+    second->magnitude = choose3(thin & !bends, reflection.magnitude, second->magnitude);
+  }
+#endif
+#if HAS(UNLIT)
+  const Mask unlit = (s->flags & MATERIAL_UNLIT) != 0;
+  first->w_i = choose3(unlit, back, first->w_i);
+  first->magnitude = choose3(unlit, straight3, first->magnitude);
+  second->w_i = choose3(unlit, back, second->w_i);
+  second->magnitude = choose3(unlit, zero, second->magnitude);
 #endif
 #endif
 }

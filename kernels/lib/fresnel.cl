@@ -1,5 +1,5 @@
 // Fresnel reflectance: exact for dielectrics, Schlick 1994 for metals and for the microfacet lobe (glTF 2.0, appendix B).
-#include "lib/math.cl"
+#include "lib/lanes.cl"
 
 /// Unpolarised reflectance at an interface; eta = n_t / n_i, cosine = n·w_o in [0, 1]. 1 at total reflection.
 /// cosT receives the cosine of the refracted ray (0 at total reflection).
@@ -17,10 +17,8 @@ INLINE float fresnelDielectric(float cosine, float eta, float* cosT) {
 }
 
 /// (1 - cosine)^5
-INLINE float schlickWeight(float cosine) {
-  const float m = 1.0f - cosine;
-  const float m2 = m * m;
+INLINE Real schlickWeight(Real cosine) {
+  const Real m = 1.0f - cosine;
+  const Real m2 = m * m;
   return m2 * m2 * m;
 }
-
-INLINE float3 schlick(float3 f0, float3 f90, float cosine) { return f0 + (f90 - f0) * schlickWeight(cosine); }

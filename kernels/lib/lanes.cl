@@ -14,6 +14,10 @@ typedef uint8 Natural;
 #define LOAD(p) vload8(0, p)
 #define STORE(x, p) vstore8(x, 0, p)
 #define LANE_NUMBERS ((uint8)(0, 1, 2, 3, 4, 5, 6, 7))
+#define FIRST(x) (x).s0
+INLINE Real gather(__global const float* p, Natural at) {
+  return (float8)(p[at.s0], p[at.s1], p[at.s2], p[at.s3], p[at.s4], p[at.s5], p[at.s6], p[at.s7]);
+}
 INLINE int some(Mask mask) {
   const int4 four = mask.lo | mask.hi;
   const int2 two = four.lo | four.hi;
@@ -30,6 +34,8 @@ typedef uint Natural;
 #define LOAD(p) (*(p))
 #define STORE(x, p) (*(p) = (x))
 #define LANE_NUMBERS 0u
+#define FIRST(x) (x)
+INLINE Real gather(__global const float* p, Natural at) { return p[at]; }
 INLINE int some(Mask mask) { return mask != 0; }
 #endif
 
@@ -41,6 +47,37 @@ typedef struct {
 INLINE Real3 real3(Real x, Real y, Real z) {
   const Real3 v = {x, y, z};
   return v;
+}
+
+INLINE Real3 same3(float3 v) { return real3(v.x, v.y, v.z); }
+INLINE Real3 add3(Real3 a, Real3 b) { return real3(a.x + b.x, a.y + b.y, a.z + b.z); }
+INLINE Real3 sub3(Real3 a, Real3 b) { return real3(a.x - b.x, a.y - b.y, a.z - b.z); }
+INLINE Real3 mul3(Real3 a, Real3 b) { return real3(a.x * b.x, a.y * b.y, a.z * b.z); }
+INLINE Real3 scale3(Real s, Real3 v) { return real3(s * v.x, s * v.y, s * v.z); }
+INLINE Real3 over3(Real3 v, Real s) { return real3(v.x / s, v.y / s, v.z / s); }
+INLINE Real3 minus3(Real3 v) { return real3(-v.x, -v.y, -v.z); }
+INLINE Real3 choose3(Mask m, Real3 a, Real3 b) { return real3(m ? a.x : b.x, m ? a.y : b.y, m ? a.z : b.z); }
+INLINE Real dots(Real3 a, Real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+INLINE Real3 crosses(Real3 a, Real3 b) {
+  return real3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+INLINE Real largestOf(Real a, Real b, Real c) {
+  const Real ab = a > b ? a : b;
+  return ab > c ? ab : c;
+}
+INLINE Real clampUnit(Real x) { return x > 0.0f ? (x < 1.0f ? x : (Real)(1.0f)) : (Real)(0.0f); }
+INLINE Real luminances(Real3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+INLINE Mask somePositive(Real3 c) { return (c.x > 0.0f) | (c.y > 0.0f) | (c.z > 0.0f); }
+INLINE Mask finite3(Real3 v) { return isfinite(v.x) & isfinite(v.y) & isfinite(v.z); }
+
+/// Unit vectors, as normalize3.
+INLINE Real3 normalized(Real3 v) {
+  const Real3 s = over3(v, largestOf(fabs(v.x), fabs(v.y), fabs(v.z)));
+  return over3(s, sqrt(dots(s, s)));
+}
+
+INLINE Real3 gather3(__global const float* p, Natural at) {
+  return real3(gather(p, at), gather(p + 1, at), gather(p + 2, at));
 }
 
 INLINE void storeReal3(__global float* queue, uint capacity, uint plane, uint i, Real3 v) {

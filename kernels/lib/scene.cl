@@ -5,7 +5,7 @@
 typedef struct {
   __global const Node* nodes;                 // [nodes] the tree, root first
   __global const DeviceTriangle* triangles;   // [triangles] leaf order
-  __global const uint* corners;               // [3 primitives] vertex indices
+  __global const uint* corners;               // [3 triangles] vertex indices, leaf order
   __global const float* normals;              // [3 vertices] unit, or 0: use the geometric normal
   __global const float* tangents;             // [4 vertices]
   __global const float* uv0;                  // [2 vertices]

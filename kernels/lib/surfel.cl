@@ -1,26 +1,7 @@
-// The surfel: what shading needs to know of the surface at a hit, evaluated from vertices, material and textures.
+// A point of a triangle: where it lies, its texture coordinates, its base colour, and what of the light it lets through.
 // Conventions: host/reference/README.md.
 #include "lib/fresnel.cl"
 #include "lib/texture.cl"
-
-typedef struct {
-  float3 position;   // world, m
-  float3 n_g;        // unit geometric normal, turned to the viewer
-  float3 n;          // unit shading normal, turned likewise
-  float3 baseColor;  // linear
-  float alpha;       // coverage a
-  float metallic;
-  float roughness;
-  float transmission;
-  float3 specularF0;  // dielectric reflectance at normal incidence, and at grazing incidence
-  float specularF90;
-  float3 emission;  // W/(m² sr), already 0 on a side that does not emit
-  float ior;
-  float bump;  // m
-  int front;
-  uint flags;  // MATERIAL_…
-  float3 sigma_a;
-} Surfel;
 
 /// Where in its triangle a hit lies. Low parts: what b1 and b2 lost to rounding, 0 where nobody asked.
 typedef struct {
@@ -93,9 +74,9 @@ INLINE Uv uvAt(const SceneView* scene, const uint* corner, const Barycentrics* b
   return uv;
 }
 
-INLINE void loadCorners(const SceneView* scene, uint primitive, uint* corner) {
+INLINE void loadCorners(const SceneView* scene, uint triangleIndex, uint* corner) {
 #if HAS(VERTEX_NORMALS) || HAS(VERTEX_COLORS) || HAS(TEXTURES)
-  __global const uint* c = scene->corners + (size_t)primitive * 3;
+  __global const uint* c = scene->corners + (size_t)triangleIndex * 3;
   corner[0] = c[0];
   corner[1] = c[1];
   corner[2] = c[2];
@@ -117,7 +98,7 @@ INLINE TrianglePoint trianglePoint(const SceneView* scene, uint triangleIndex, B
   TrianglePoint p;
   p.triangle = scene->triangles + triangleIndex;
   p.material = scene->materials + p.triangle->material;
-  loadCorners(scene, p.triangle->primitive, p.corner);
+  loadCorners(scene, triangleIndex, p.corner);
   p.b = b;
   p.uv = uvAt(scene, p.corner, forTextures);
   return p;
@@ -183,139 +164,4 @@ INLINE int passesAlphaMask(const SceneView* scene, uint triangleIndex, float b1,
   const Barycentrics b = barycentrics(b1, b2);
   const TrianglePoint p = trianglePoint(scene, triangleIndex, b, &b);
   return baseColorAt(scene, &p).w >= p.material->alphaCutoff;
-}
-
-#if HAS(VERTEX_NORMALS)
-/// Interpolated vertex normal, or n_g where a corner has none or the sum is useless.
-INLINE float3 vertexNormalAt(const SceneView* scene, const TrianglePoint* p, float3 n_g) {
-  if (!scene->normals) return n_g;
-  const float3 a = load3(scene->normals + (size_t)p->corner[0] * 3);
-  const float3 b = load3(scene->normals + (size_t)p->corner[1] * 3);
-  const float3 c = load3(scene->normals + (size_t)p->corner[2] * 3);
-  if (dot3(a, a) == 0.0f || dot3(b, b) == 0.0f || dot3(c, c) == 0.0f) return n_g;
-  const float3 sum = p->b.b0 * a + p->b.b1 * b + p->b.b2 * c;
-  const float3 n = normalize3(sum);
-  return isFinite3(n) ? n : n_g;
-}
-#endif
-
-#if HAS(NORMAL_TEXTURE)
-/// n tilted by the normal map; n itself where there is none or no tangent to lay it along.
-INLINE float3 mappedNormal(const SceneView* scene, const TrianglePoint* p, float3 n) {
-  __global const DeviceMaterial* m = p->material;
-  if (m->normalTexture < 0 || !scene->tangents) return n;
-  const float4 a = vload4(p->corner[0], scene->tangents);
-  const float4 b = vload4(p->corner[1], scene->tangents);
-  const float4 c = vload4(p->corner[2], scene->tangents);
-  float3 tangent = p->b.b0 * a.xyz + p->b.b1 * b.xyz + p->b.b2 * c.xyz;
-  tangent = normalize3(tangent - n * dot3(n, tangent));
-  if (!isFinite3(tangent)) return n;
-  const float3 bitangent = a.w * cross3(n, tangent);
-  const float4 texel = sampleTexture(scene, m->normalTexture, &p->uv, 0);
-  const float x = (texel.x * 2.0f - 1.0f) * m->normalScale;
-  const float y = (texel.y * 2.0f - 1.0f) * m->normalScale;
-  const float z = texel.z * 2.0f - 1.0f;
-  const float3 mapped = normalize3(tangent * x + bitangent * y + n * z);
-  return isFinite3(mapped) ? mapped : n;
-}
-#endif
-
-/// Reflectance at normal and grazing incidence of the dielectric part (KHR_materials_ior, KHR_materials_specular).
-INLINE void specularReflectance(const SceneView* scene, const TrianglePoint* p, Surfel* s) {
-  __global const DeviceMaterial* m = p->material;
-  const float ratio = (m->ior - 1.0f) / (m->ior + 1.0f);
-  const float r0 = m->ior == 0.0f ? 1.0f : ratio * ratio;
-  s->specularF0 = (float3)(r0);
-  s->specularF90 = 1.0f;
-#if HAS(SPECULAR_EXTENSION)
-  float strength = m->specular;
-  float3 tint = load3(m->specularColor);
-#if HAS(SPECULAR_TEXTURE)
-  if (m->specularTexture >= 0) strength *= sampleTexture(scene, m->specularTexture, &p->uv, 0).w;
-#endif
-#if HAS(SPECULAR_COLOR_TEXTURE)
-  if (m->specularColorTexture >= 0) tint *= sampleTexture(scene, m->specularColorTexture, &p->uv, 1).xyz;
-#endif
-  const float3 f0 = r0 * tint;
-  s->specularF0 = (float3)(f0.x < 1.0f ? f0.x : 1.0f, f0.y < 1.0f ? f0.y : 1.0f, f0.z < 1.0f ? f0.z : 1.0f) * strength;
-  s->specularF90 = strength;
-#endif
-}
-
-/// The surfel at the hit (triangle, t, b1, b2) of the ray o + t d.
-INLINE Surfel surfelAt(const SceneView* scene, const RenderConstants* constants, uint triangleIndex, float3 o, float3 d, float t,
-                float b1, float b2) {
-  Surfel s;
-  __global const DeviceTriangle* triangle = scene->triangles + triangleIndex;
-  const float3 p0 = load3(triangle->v[0]), p1 = load3(triangle->v[1]), p2 = load3(triangle->v[2]);
-  const Barycentrics b = barycentrics(b1, b2);
-#if HAS(TEXTURES)
-  // For texture coordinates alone: what no texture shows keeps its bits whether this is compiled or not.
-  const float3 corners[3] = {p0, p1, p2};
-  const Barycentrics forTextures = refinedBarycentrics(corners, o, d, t, b);
-#else
-  const Barycentrics forTextures = b;
-#endif
-  const TrianglePoint p = trianglePoint(scene, triangleIndex, b, &forTextures);
-  __global const DeviceMaterial* m = p.material;
-  s.position = b.b0 * p0 + b.b1 * p1 + b.b2 * p2;
-#if HAS(FIXED_BUMP)
-  s.bump = constants->bump;
-  if (s.bump < 0.0f)
-#endif
-  {
-    const float3 extent = b.b0 * fabs(p0) + b.b1 * fabs(p1) + b.b2 * fabs(p2);
-    const float largest = extent.x > extent.y ? (extent.x > extent.z ? extent.x : extent.z)
-                                              : (extent.y > extent.z ? extent.y : extent.z);
-    const float scaled = largest * 9.5367431640625e-7f;  // 2^-20
-    s.bump = scaled > 1e-30f ? scaled : 1e-30f;
-  }
-  const float3 n_g = normalize3(cross3(p1 - p0, p2 - p0));
-  s.front = dot3(n_g, d) < 0.0f;
-  s.flags = m->flags;
-  float3 n = n_g;
-#if HAS(VERTEX_NORMALS)
-  n = vertexNormalAt(scene, &p, n_g);
-#endif
-#if HAS(NORMAL_TEXTURE)
-  n = mappedNormal(scene, &p, n);
-#endif
-  s.n_g = s.front ? n_g : -n_g;
-  n = s.front ? n : -n;
-  s.n = dot3(n, d) < 0.0f ? n : s.n_g;
-
-  const float4 c = baseColorAt(scene, &p);
-  s.baseColor = c.xyz;
-  s.alpha = 1.0f;
-#if HAS(ALPHA_BLEND)
-  if (m->flags & MATERIAL_BLEND) s.alpha = c.w > 0.0f ? (c.w < 1.0f ? c.w : 1.0f) : 0.0f;
-#endif
-  s.metallic = m->metallic;
-  s.roughness = m->roughness;
-#if HAS(METALLIC_ROUGHNESS_TEXTURE)
-  if (m->metallicRoughnessTexture >= 0) {
-    const float4 texel = sampleTexture(scene, m->metallicRoughnessTexture, &p.uv, 0);
-    s.metallic *= texel.z;
-    s.roughness *= texel.y;
-  }
-#endif
-  s.metallic = clamp(s.metallic, 0.0f, 1.0f);
-  s.roughness = clamp(s.roughness, 0.0f, 1.0f);
-  s.transmission = m->transmission;
-#if HAS(TRANSMISSION_TEXTURE)
-  if (m->transmissionTexture >= 0) s.transmission *= sampleTexture(scene, m->transmissionTexture, &p.uv, 0).x;
-#endif
-  s.ior = m->ior;
-  s.sigma_a = load3(m->sigma_a);
-  specularReflectance(scene, &p, &s);
-  s.emission = (float3)(0.0f);
-#if HAS(EMISSION)
-  if (s.front || (m->flags & MATERIAL_DOUBLE_SIDED)) {
-    s.emission = load3(m->emission);
-#if HAS(EMISSION_TEXTURE)
-    if (m->emissionTexture >= 0) s.emission *= sampleTexture(scene, m->emissionTexture, &p.uv, 1).xyz;
-#endif
-  }
-#endif
-  return s;
 }

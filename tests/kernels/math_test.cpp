@@ -47,7 +47,7 @@ __kernel void fresnel(uint n, __global const float* v, __global float* out) {
 }
 __kernel void spot(uint n, __global const DeviceLight* light, __global const float* v, __global float* out) {
   const uint i = get_global_id(0);
-  if (i < n) out[i] = spotFactor(light + i, vload3(i, v));
+  if (i < n) out[i] = FIRST(spotFactor(light + i, same3(vload3(i, v))));
 }
 )";
 

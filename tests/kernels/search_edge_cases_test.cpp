@@ -51,10 +51,13 @@ __kernel void spawn_points(uint n, SCENE_PARAMS, __global const uint* at, __glob
   const SceneView scene = SCENE_VIEW;
   RenderConstants constants;
   constants.bump = -1.0f;
-  const Surfel s = surfelAt(&scene, &constants, at[i], (float3)(0.0f), vload3(i, d), 0.0f, b[2 * i], b[2 * i + 1]);
-  vstore3(s.position + s.n_g * s.bump, i, out + 0);
-  vstore3(s.position - s.n_g * s.bump, i, out + 3 * n);
-  vstore3(s.n_g, i, out + 6 * n);
+  const Surfel s = surfelAt(&scene, &constants, (Natural)(at[i]), same3((float3)(0.0f)), same3(vload3(i, d)), (Real)(0.0f),
+                            (Real)(b[2 * i]), (Real)(b[2 * i + 1]));
+  const float3 position = (float3)(FIRST(s.position.x), FIRST(s.position.y), FIRST(s.position.z));
+  const float3 n_g = (float3)(FIRST(s.n_g.x), FIRST(s.n_g.y), FIRST(s.n_g.z));
+  vstore3(position + n_g * FIRST(s.bump), i, out + 0);
+  vstore3(position - n_g * FIRST(s.bump), i, out + 3 * n);
+  vstore3(n_g, i, out + 6 * n);
 }
 )";
 

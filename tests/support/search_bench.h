@@ -63,7 +63,7 @@ class SearchBench {
     const auto features = SceneFeatures::analyse(scene, settings, {true});
     auto& program = lab.programs[features.bits()];
     if (!program())
-      program = compute_.build(assembleKernelSource({"intersect.cl", "occlude.cl"}, testKernelFolder()) +
+      program = compute_.build(assembleKernelSource({"intersect.cl", "occlude.cl", "lib/surfels.cl"}, testKernelFolder()) +
                                    "#line 1 \"test kernels\"\n" + testKernels,
                                buildOptions(features.bits(), 1024));
     stages.emplace(compute_, program, kWorkGroup);

@@ -1,43 +1,42 @@
 // compact: dense queues from sparse candidates, order kept (reduce, then scan, then scatter: Blelloch 1990), without
 // barriers: a work item walks COMPACT_CHUNK entries serially, which a CPU likes best and a GPU can afford with a small COMPACT_CHUNK.
-// compact_count_*: entries wanted in each chunk. scan_chunks: exclusive sums of chunk totals. compact_shadow writes the
-// shadow queue (indices of candidates), compact_impulse the next ray queue.
+// compact_count: shadow rays and impulses in each chunk. scan_chunks: exclusive sums of chunk totals. compact_shadow
+// writes the shadow queue (indices of candidates), compact_impulse the next ray queue.
 #include "lib/math.cl"
 
-__kernel void compact_count_shadow(const uint count, __global const uint* flags, __global uint* totals) {
+#define CHUNKS(count) (((count) + COMPACT_CHUNK - 1) / COMPACT_CHUNK)
+
+__kernel void compact_count(const uint count, __global const uint* flags,
+                            __global uint* totals) {  // [2][chunks] shadow rays, impulses
   const uint chunk = get_global_id(0);
   const uint begin = chunk * COMPACT_CHUNK;
   if (begin >= count) return;
   const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
-  uint sum = 0;
-  for (uint i = begin; i < end; ++i) sum += flags[i] & ENTRY_SHADOW;
-  totals[chunk] = sum;
+  uint shadows = 0, impulses = 0;
+  for (uint i = begin; i < end; ++i) {
+    shadows += flags[i] & ENTRY_SHADOW;
+    impulses += ((flags[i] >> 1) & 1u) + ((flags[i] >> 2) & 1u);
+  }
+  totals[chunk] = shadows;
+  totals[CHUNKS(count) + chunk] = impulses;
 }
 
-__kernel void compact_count_impulse(const uint count, __global const uint* flags, __global uint* totals) {
-  const uint chunk = get_global_id(0);
-  const uint begin = chunk * COMPACT_CHUNK;
-  if (begin >= count) return;
-  const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
-  uint sum = 0;
-  for (uint i = begin; i < end; ++i) sum += ((flags[i] >> 1) & 1u) + ((flags[i] >> 2) & 1u);
-  totals[chunk] = sum;
-}
-
-/// One work item: totals[i] becomes the sum of those before it; *sum the sum of all.
-__kernel void scan_chunks(const uint chunks, __global uint* totals, __global uint* sum) {
-  if (get_global_id(0) != 0) return;
+/// Two work items, one for each kind: totals[kind][i] becomes the sum of those before it; sums[kind] the sum of all.
+__kernel void scan_chunks(const uint chunks, __global uint* totals, __global uint* sums) {
+  const uint kind = get_global_id(0);
+  if (kind >= 2) return;
+  __global uint* own = totals + kind * chunks;
   uint running = 0;
   for (uint i = 0; i < chunks; ++i) {
-    const uint own = totals[i];
-    totals[i] = running;
-    running += own;
+    const uint total = own[i];
+    own[i] = running;
+    running += total;
   }
-  *sum = running;
+  sums[kind] = running;
 }
 
 __kernel void compact_shadow(const uint count, __global const uint* flags,
-                             __global const uint* offsets,   // [chunks] exclusive sums
+                             __global const uint* offsets,   // [2][chunks] exclusive sums
                              __global uint* shadowQueue) {   // [capacity]
   const uint chunk = get_global_id(0);
   const uint begin = chunk * COMPACT_CHUNK;
@@ -56,7 +55,7 @@ __kernel void compact_impulse(const uint first, const uint count, const uint cap
   const uint begin = chunk * COMPACT_CHUNK;
   if (begin >= count) return;
   const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
-  uint out = offsets[chunk];
+  uint out = offsets[CHUNKS(count) + chunk];
   for (uint i = begin; i < end; ++i) {
     for (uint k = 0; k < 2; ++k) {
       if (!(flags[i] & (ENTRY_IMPULSE0 << k))) continue;

@@ -9,11 +9,10 @@ std::vector<std::string> plannedStages(const SceneFeatures& features, std::size_
     stages.insert(stages.end(), names.begin(), names.end());
   };
   const bool shadows = features.has(Feature::SHADOWS), impulses = features.has(Feature::IMPULSES);
-  if (shadows) add({"compact_count_shadow"});
-  if (shadows || impulses) add({"scan_chunks"});
+  if (shadows || impulses) add({"compact_count", "scan_chunks"});
   if (shadows) add({"compact_shadow", "occlude"});
   if (lights > 1) add({"shade_light"});
-  if (impulses) add({"compact_count_impulse", "compact_impulse", "accumulate"});
+  if (impulses) add({"compact_impulse", "accumulate"});
   if (features.has(Feature::BOTH_BRANCHES) && bounces >= 10) add({"find_long_runs"});
   add({"film"});
   return stages;

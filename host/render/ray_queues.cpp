@@ -29,8 +29,8 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
     impulses = planes("impulses", 2 * IMPULSE_PLANES), entryRadiance = planes("entryRadiance", 3);
   if (shadowRays || impulseRays) {
     flags = planes("flags", 1);
-    totals = compute.allocate("totals", (capacity / compactChunk + 2) * sizeof(std::uint32_t));
-    sum = compute.allocate("sum", sizeof(std::uint32_t));
+    totals = compute.allocate("totals", 2 * (capacity / compactChunk + 1) * sizeof(std::uint32_t));
+    sums = compute.allocate("sums", 2 * sizeof(std::uint32_t));
   }
 }
 
@@ -102,7 +102,7 @@ std::vector<Segment> RayQueues::cutLongRuns(const std::vector<std::uint32_t>& sl
 
 void RayQueues::report(std::vector<BufferStats>& out) const {
   for (const Buffer* b :
-       {&hits, &entryRadiance, &sampleRadiance, &shadows, &shadowQueue, &impulses, &flags, &totals, &sum})
+       {&hits, &entryRadiance, &sampleRadiance, &shadows, &shadowQueue, &impulses, &flags, &totals, &sums})
     if (*b) out.push_back({b->name, "queues", b->bytes});
   if (!free_.empty()) out.push_back({"rays", "queues", free_.front().bytes * queuesMade_});
 }

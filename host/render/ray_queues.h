@@ -39,7 +39,7 @@ class RayQueues {
 
   void report(std::vector<BufferStats>& out) const;
 
-  Buffer hits, entryRadiance, sampleRadiance, shadows, shadowQueue, impulses, flags, totals, sum;
+  Buffer hits, entryRadiance, sampleRadiance, shadows, shadowQueue, impulses, flags, totals, sums;
 
  private:
   std::vector<std::uint32_t> readSlots(const Buffer& queue, std::uint32_t begin, std::uint32_t count) const;

@@ -75,13 +75,14 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
   radiance_ = bounce == 1 ? &queues_.sampleRadiance : &queues_.entryRadiance;
   intersect(queue, segment);
   shade(queue, segment, bounce);
-  occlude(compactShadow(segment));
+  const Candidates found = countCandidates(segment);
+  occlude(compactShadow(segment, found.shadow));
   for (std::uint32_t light = 1; light < setup_.scene.lightCount; ++light) {
     shadeLight(queue, segment, light);
-    occlude(compactShadow(segment));
+    occlude(compactShadow(segment, countCandidates(segment).shadow));
   }
   if (bounce > 1) accumulate(queue, segment);
-  return bounce < setup_.bounces ? compactImpulse(queue, segment, next) : 0;
+  return bounce < setup_.bounces ? compactImpulse(queue, segment, found.impulse, next) : 0;
 }
 
 void Wavefront::raygen(const Buffer& queue, std::uint32_t count) {
@@ -105,22 +106,26 @@ void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce
 }
 
 void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t light) {
-  stages_.run("shade_light", laneItems(segment.count()), segment.count(), setup_.scene, setup_.constants, segment.begin,
-              segment.count(), queues_.capacity(), light, queue, queues_.hits, *radiance_, queues_.shadows,
-              queues_.flags);
+  stages_.run("shade_light", laneItems(segment.count()), segment.count(), setup_.scene, setup_.constants,
+              segment.begin, segment.count(), queues_.capacity(), light, queue, queues_.hits, *radiance_,
+              queues_.shadows, queues_.flags);
 }
 
-std::uint32_t Wavefront::compactShadow(Segment segment) {
-  if (!queues_.shadows) return 0;
-  const std::uint32_t chunks = (segment.count() + setup_.compactChunk - 1) / setup_.compactChunk;
-  stages_.run("compact_count_shadow", chunks, segment.count(), segment.count(), queues_.flags,
-              queues_.totals);
-  const std::uint32_t found = scanChunks(segment.count());
-  if (found > 0) {
-    stages_.run("compact_shadow", chunks, segment.count(), segment.count(), queues_.flags, queues_.totals,
-                queues_.shadowQueue);
-    tally_.shadow += found;
-  }
+Wavefront::Candidates Wavefront::countCandidates(Segment segment) {
+  if (!queues_.flags) return {};
+  const std::uint32_t chunks = chunksOf(segment);
+  stages_.run("compact_count", chunks, segment.count(), segment.count(), queues_.flags, queues_.totals);
+  stages_.run("scan_chunks", 2, chunks, chunks, queues_.totals, queues_.sums);
+  std::array<std::uint32_t, 2> sums{};
+  compute_.read(queues_.sums, 0, sizeof(sums), sums.data());
+  return {sums[0], sums[1]};
+}
+
+std::uint32_t Wavefront::compactShadow(Segment segment, std::uint32_t found) {
+  if (found == 0) return 0;
+  stages_.run("compact_shadow", chunksOf(segment), segment.count(), segment.count(), queues_.flags,
+              queues_.totals, queues_.shadowQueue);
+  tally_.shadow += found;
   return found;
 }
 
@@ -130,17 +135,13 @@ void Wavefront::occlude(std::uint32_t count) {
               queues_.shadowQueue, queues_.shadows, *radiance_);
 }
 
-std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, Buffer& next) {
-  if (!queues_.impulses) return 0;
-  const std::uint32_t chunks = (segment.count() + setup_.compactChunk - 1) / setup_.compactChunk;
-  stages_.run("compact_count_impulse", chunks, segment.count(), segment.count(), queues_.flags,
-              queues_.totals);
-  const std::uint32_t found = scanChunks(segment.count());
+std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, std::uint32_t found,
+                                        Buffer& next) {
   if (found == 0) return 0;
   assert(found <= queues_.capacity());
   next = queues_.acquire();
-  stages_.run("compact_impulse", chunks, segment.count(), segment.begin, segment.count(), queues_.capacity(),
-              queues_.flags, queues_.totals, queues_.impulses, queue, next);
+  stages_.run("compact_impulse", chunksOf(segment), segment.count(), segment.begin, segment.count(),
+              queues_.capacity(), queues_.flags, queues_.totals, queues_.impulses, queue, next);
   tally_.impulse += found;
   tally_.produced += found;
   return found;
@@ -158,12 +159,8 @@ void Wavefront::film() {
               queues_.sampleRadiance, film_, counters_);
 }
 
-std::uint32_t Wavefront::scanChunks(std::uint32_t count) {
-  const std::uint32_t chunks = (count + setup_.compactChunk - 1) / setup_.compactChunk;
-  stages_.run("scan_chunks", 1, chunks, chunks, queues_.totals, queues_.sum);
-  std::uint32_t sum = 0;
-  compute_.read(queues_.sum, 0, sizeof(sum), &sum);
-  return sum;
+std::uint32_t Wavefront::chunksOf(Segment segment) const {
+  return (segment.count() + setup_.compactChunk - 1) / setup_.compactChunk;
 }
 
 bool Wavefront::hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint32_t bounce) {

@@ -54,13 +54,18 @@ class Wavefront {
   void intersect(const Buffer& queue, Segment segment);
   void shade(const Buffer& queue, Segment segment, std::uint32_t bounce);
   void shadeLight(const Buffer& queue, Segment segment, std::uint32_t light);
-  std::uint32_t compactShadow(Segment segment);
+  /// What shading asked for in a segment.
+  struct Candidates {
+    std::uint32_t shadow = 0, impulse = 0;
+  };
+  Candidates countCandidates(Segment segment);
+  std::uint32_t compactShadow(Segment segment, std::uint32_t found);
   void occlude(std::uint32_t count);
-  std::uint32_t compactImpulse(const Buffer& queue, Segment segment, Buffer& next);
+  std::uint32_t compactImpulse(const Buffer& queue, Segment segment, std::uint32_t found, Buffer& next);
   void accumulate(const Buffer& queue, Segment segment);
   void film();
 
-  std::uint32_t scanChunks(std::uint32_t count);
+  std::uint32_t chunksOf(Segment segment) const;
   bool hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint32_t bounce);
   /// Work items of a kernel whose items handle LANES entries each.
   std::uint32_t laneItems(std::uint32_t entries) const;

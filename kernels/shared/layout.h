@@ -138,8 +138,8 @@ WHITTLE_STRUCT(Batch) {
 // QUEUE_PADDING entries so that a packet may load past the end.
 #define QUEUE_PADDING 16
 
-// Ray queue: origin (m), direction (unit), throughput (RGB; eye rays: not written, it is 1), slot of its sample (uint bits). Entries of one
-// sample are neighbours.
+// Ray queue: origin (m), direction (unit), throughput (RGB; eye rays: not written, it is 1), slot of its
+// sample (uint bits). Entries of one sample are neighbours.
 #define RAY_O 0
 #define RAY_D 3
 #define RAY_THROUGHPUT 6

@@ -33,8 +33,8 @@ class Compaction {
  public:
   explicit Compaction(std::uint32_t chunk)
       : bench({"compact.cl"}, "", test::kAllFeatures, static_cast<int>(chunk)), chunk_(chunk) {
-    totals_ = bench.compute.allocate("totals", (kCapacity / chunk + 2) * sizeof(std::uint32_t));
-    sum_ = bench.compute.allocate("sum", sizeof(std::uint32_t));
+    totals_ = bench.compute.allocate("totals", 2 * (kCapacity / chunk + 1) * sizeof(std::uint32_t));
+    sums_ = bench.compute.allocate("sums", 2 * sizeof(std::uint32_t));
   }
 
   /// Indices of the entries with a shadow ray; the whole buffer, so that writes beyond the end show.
@@ -42,8 +42,7 @@ class Compaction {
     const Buffer f = bench.compute.upload("flags", flags);
     const Buffer queue =
         bench.compute.upload("shadowQueue", std::vector<std::uint32_t>(kCapacity, kUntouched));
-    bench.stages.run("compact_count_shadow", chunks(count), count, count, f, totals_);
-    scan(count);
+    scan(f, count, 0);
     bench.stages.run("compact_shadow", chunks(count), count, count, f, totals_, queue);
     return bench.read<std::uint32_t>(queue, kCapacity);
   }
@@ -57,8 +56,7 @@ class Compaction {
                  queue = bench.compute.upload("rays", rays);
     const Buffer next =
         bench.compute.upload("next", std::vector<std::uint32_t>(RAY_PLANES * kCapacity, kUntouched));
-    bench.stages.run("compact_count_impulse", chunks(count), count, count, f, totals_);
-    scan(count);
+    scan(f, count, 1);
     bench.stages.run("compact_impulse", chunks(count), count, first, count, kCapacity, f, totals_, from,
                      queue, next);
     return bench.read<std::uint32_t>(next, RAY_PLANES * kCapacity);
@@ -69,13 +67,15 @@ class Compaction {
 
  private:
   std::uint32_t chunks(std::uint32_t count) const { return (count + chunk_ - 1) / chunk_; }
-  void scan(std::uint32_t count) {
-    bench.stages.run("scan_chunks", 1, chunks(count), chunks(count), totals_, sum_);
-    found = bench.read<std::uint32_t>(sum_, 1)[0];
+  /// kind: 0 shadow rays, 1 impulses.
+  void scan(const Buffer& flags, std::uint32_t count, std::size_t kind) {
+    bench.stages.run("compact_count", chunks(count), count, count, flags, totals_);
+    bench.stages.run("scan_chunks", 2, chunks(count), chunks(count), totals_, sums_);
+    found = bench.read<std::uint32_t>(sums_, 2)[kind];
   }
 
   std::uint32_t chunk_;
-  Buffer totals_, sum_;
+  Buffer totals_, sums_;
 };
 
 std::vector<std::uint32_t> distinctWords(std::size_t count, std::uint32_t first) {

@@ -63,9 +63,10 @@ class SearchBench {
     const auto features = SceneFeatures::analyse(scene, settings, {true});
     auto& program = lab.programs[features.bits()];
     if (!program())
-      program = compute_.build(assembleKernelSource({"intersect.cl", "occlude.cl", "lib/surfels.cl"}, testKernelFolder()) +
-                                   "#line 1 \"test kernels\"\n" + testKernels,
-                               buildOptions(features.bits(), 1024));
+      program = compute_.build(
+          assembleKernelSource({"intersect.cl", "occlude.cl", "lib/surfels.cl"}, testKernelFolder()) +
+              "#line 1 \"test kernels\"\n" + testKernels,
+          buildOptions(features.bits(), 1024));
     stages.emplace(compute_, program, kWorkGroup);
     std::vector<glm::uvec3> corners;
     for (const Triangle& t : scene.triangles) corners.emplace_back(t.v0, t.v1, t.v2);

@@ -11,6 +11,8 @@ typedef uint8 Natural;
 #define AS_REAL(x) as_float8(x)
 #define AS_NATURAL(x) as_uint8(x)
 #define TO_REAL(x) convert_float8(x)
+#define TO_WHOLE(x) convert_int8(x)
+#define TO_SIGNED(x) as_int8(x)
 #define LOAD(p) vload8(0, p)
 #define STORE(x, p) vstore8(x, 0, p)
 #define LANE_NUMBERS ((uint8)(0, 1, 2, 3, 4, 5, 6, 7))
@@ -31,6 +33,8 @@ typedef uint Natural;
 #define AS_REAL(x) as_float(x)
 #define AS_NATURAL(x) as_uint(x)
 #define TO_REAL(x) convert_float(x)
+#define TO_WHOLE(x) convert_int(x)
+#define TO_SIGNED(x) as_int(x)
 #define LOAD(p) (*(p))
 #define STORE(x, p) (*(p) = (x))
 #define LANE_NUMBERS 0u
@@ -96,3 +100,30 @@ INLINE Real sumErrorReal(Real a, Real b, Real sum) {
   const Real part = sum - a;
   return (a - (sum - part)) + (b - part);
 }
+INLINE Real3 sumErrors(Real3 a, Real3 b, Real3 sum) {
+  return real3(sumErrorReal(a.x, b.x, sum.x), sumErrorReal(a.y, b.y, sum.y), sumErrorReal(a.z, b.z, sum.z));
+}
+
+/// One struct out of an array for each lane: where its words begin. Neighbours mostly share one.
+typedef struct {
+  __global const float* words;
+  Natural begin;
+  int same;  // in all lanes
+} Records;
+
+INLINE Records recordsAt(__global const void* array, Natural index, uint wordsEach) {
+  Records r;
+  r.words = (__global const float*)array;
+  r.begin = index * wordsEach;
+  r.same = !some(r.begin != FIRST(r.begin));
+  return r;
+}
+
+INLINE Real wordOf(const Records* r, uint word) {
+  return r->same ? (Real)(r->words[FIRST(r->begin) + word]) : gather(r->words + word, r->begin);
+}
+
+#define WORDS_OF(Struct) ((uint)(sizeof(Struct) / 4))
+#define WORD_OF(Struct, field) ((uint)((size_t) & ((Struct*)0)->field / 4))
+#define FIELD(records, Struct, field) wordOf(records, WORD_OF(Struct, field))
+#define FIELD_BITS(records, Struct, field) AS_NATURAL(FIELD(records, Struct, field))

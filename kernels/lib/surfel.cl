@@ -14,35 +14,6 @@ INLINE Barycentrics barycentrics(float b1, float b2) {
   return b;
 }
 
-#if HAS(TEXTURES)
-/// Barycentrics of the hit at distance t of the ray o + t d, found again from where that point lies beside the first
-/// corner: a search's own are off by the rounding of distances to the ray's origin, which a texture shows on a far or
-/// slanted triangle. Solved once for (b1, b2) and once more for what they leave over; every difference keeps what it
-/// lost. An error of t is along d, and changes nothing. Clamped to the triangle; `found` where it is seen from its edge.
-INLINE Barycentrics refinedBarycentrics(const float3* p, float3 o, float3 d, float t, Barycentrics found) {
-  const float3 e1 = p[1] - p[0], e2 = p[2] - p[0];
-  const float3 from = o - p[0], along = t * d, beside = from + along;
-  const float3 besideLow =
-      sumError3(o, -p[0], from) + fma((float3)(t), d, -along) + sumError3(from, along, beside);
-  const float3 across1 = cross3(e2, d), across2 = cross3(d, e1);
-  const float inverse = 1.0f / dot3(e1, across1);
-  const float free1 = dot3(beside, across1) * inverse, free2 = dot3(beside, across2) * inverse;
-  if (!isfinite(free1) || !isfinite(free2)) return found;
-  const float b1 = clamp(free1, 0.0f, 1.0f), b2 = clamp(free2, 0.0f, 1.0f - b1);
-  Barycentrics b = barycentrics(b1, b2);
-  if (b1 != free1 || b2 != free2) return b;
-  const float3 part1 = b1 * e1, part2 = b2 * e2;
-  const float3 rest1 = beside - part1, rest2 = rest1 - part2;
-  const float3 lost = sumError3(beside, -part1, rest1) + sumError3(rest1, -part2, rest2) -
-                      (fma((float3)(b1), e1, -part1) + b1 * sumError3(p[1], -p[0], e1)) -
-                      (fma((float3)(b2), e2, -part2) + b2 * sumError3(p[2], -p[0], e2));
-  const float3 rest = rest2 + (besideLow + lost);
-  b.low1 = dot3(rest, across1) * inverse;
-  b.low2 = dot3(rest, across2) * inverse;
-  return b;
-}
-#endif
-
 /// Texture coordinate of a hit, and what its rounding lost. Coordinates may count many repeats of a picture.
 INLINE float interpolateUv(float a, float b, float c, const Barycentrics* at, float* low) {
   const float e1 = b - a, e2 = c - a;

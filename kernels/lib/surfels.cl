@@ -1,7 +1,7 @@
 // The surfels of the LANES hits of a work item: what shading needs to know of the surface, evaluated from vertices,
 // material and textures. Conventions: host/reference/README.md.
-#include "lib/lanes.cl"
 #include "lib/surfel.cl"
+#include "lib/textures.cl"
 
 typedef struct {
   Real3 position;   // world, m
@@ -22,84 +22,116 @@ typedef struct {
   Real3 sigma_a;
 } Surfel;
 
+/// Where in their triangles hits lie, as Barycentrics.
+typedef struct {
+  Real b0, b1, b2;
+  Real low1, low2;
+} Positions;
+
 /// Where the hits lie and what they lie on.
 typedef struct {
-  __global const float* triangles;  // the scene's, as words
-  __global const float* materials;  // likewise
-  Natural triangle;                 // each lane's word of these
-  Natural material;
-  int oneMaterial;  // in all lanes
+  Real3 p0, p1, p2;  // corners of the triangles
+  Records material;
   Natural corner[3];
   Real b0, b1, b2;
 #if HAS(TEXTURES)
-  Uv uv[LANES];
+  Uvs uv;
 #endif
 } Places;
 
-#define WORDS_OF(Struct) ((uint)(sizeof(Struct) / 4))
-#define WORD_OF(Struct, field) ((uint)((size_t) & ((Struct*)0)->field / 4))
-
-/// A field of each lane's material, by its word. Neighbours mostly share one.
-INLINE Real materialWord(const Places* at, uint word) {
-  return at->oneMaterial ? (Real)(at->materials[FIRST(at->material) + word]) : gather(at->materials + word, at->material);
-}
-INLINE Real3 materialWords3(const Places* at, uint word) {
-  return real3(materialWord(at, word), materialWord(at, word + 1), materialWord(at, word + 2));
-}
-#define MATERIAL(at, field) materialWord(at, WORD_OF(DeviceMaterial, field))
-#define MATERIAL3(at, field) materialWords3(at, WORD_OF(DeviceMaterial, field))
+#define MATERIAL(at, field) FIELD(&(at)->material, DeviceMaterial, field)
 #define MATERIAL_BITS(at, field) AS_NATURAL(MATERIAL(at, field))
+#define MATERIAL3(at, field) materialWords3(at, WORD_OF(DeviceMaterial, field))
+INLINE Real3 materialWords3(const Places* at, uint word) {
+  return real3(wordOf(&at->material, word), wordOf(&at->material, word + 1), wordOf(&at->material, word + 2));
+}
 
 INLINE Real3 blend(const Places* at, Real3 a, Real3 b, Real3 c) {
   return add3(add3(scale3(at->b0, a), scale3(at->b1, b)), scale3(at->b2, c));
 }
 
 #if HAS(TEXTURES)
-/// Texture coordinates, lane by lane.
-INLINE void findUvs(const SceneView* scene, Places* at, Natural triangleIndex, Real3 o, Real3 d, Real t) {
-  const Real parts[9] = {o.x, o.y, o.z, d.x, d.y, d.z, t, at->b1, at->b2};
-  float own[9][LANES];
-  uint triangle[LANES];
-  for (int n = 0; n < 9; ++n) STORE(parts[n], own[n]);
-  STORE(triangleIndex, triangle);
-  for (uint k = 0; k < LANES; ++k) {
-    __global const DeviceTriangle* hit = scene->triangles + triangle[k];
-    const float3 corners[3] = {load3(hit->v[0]), load3(hit->v[1]), load3(hit->v[2])};
-    const Barycentrics b = barycentrics(own[7][k], own[8][k]);
-    // For texture coordinates alone: what no texture shows keeps its bits whether this is compiled or not.
-    const Barycentrics refined = refinedBarycentrics(corners, (float3)(own[0][k], own[1][k], own[2][k]),
-                                                     (float3)(own[3][k], own[4][k], own[5][k]), own[6][k], b);
-    uint corner[3];
-    loadCorners(scene, triangle[k], corner);
-    at->uv[k] = uvAt(scene, corner, &refined);
-  }
+INLINE Real3 fma3(Real s, Real3 v, Real3 plus) { return real3(fma(s, v.x, plus.x), fma(s, v.y, plus.y), fma(s, v.z, plus.z)); }
+
+/// Barycentrics of the hits at distance t of the rays o + t d, found again from where those points lie beside the first
+/// corner: a search's own are off by the rounding of distances to the ray's origin, which a texture shows on a far or
+/// slanted triangle. Solved once for (b1, b2) and once more for what they leave over; every difference keeps what it
+/// lost. An error of t is along d, and changes nothing. Clamped to the triangle; `found` where it is seen from its edge.
+INLINE Positions refinedPositions(Real3 p0, Real3 p1, Real3 p2, Real3 o, Real3 d, Real t, Positions found) {
+  const Real3 e1 = sub3(p1, p0), e2 = sub3(p2, p0);
+  const Real3 from = sub3(o, p0), along = scale3(t, d), beside = add3(from, along);
+  const Real3 besideLow = add3(add3(sumErrors(o, minus3(p0), from), fma3(t, d, minus3(along))), sumErrors(from, along, beside));
+  const Real3 across1 = crosses(e2, d), across2 = crosses(d, e1);
+  const Real inverse = 1.0f / dots(e1, across1);
+  const Real free1 = dots(beside, across1) * inverse, free2 = dots(beside, across2) * inverse;
+  const Mask seen = isfinite(free1) & isfinite(free2);
+  Positions at;
+  const Real b1 = clampUnit(free1), room = 1.0f - b1, upper = free2 < room ? free2 : room;
+  const Real b2 = free2 > 0.0f ? upper : (Real)(0.0f);
+  const Real3 part1 = scale3(b1, e1), part2 = scale3(b2, e2);
+  const Real3 rest1 = sub3(beside, part1), rest2 = sub3(rest1, part2);
+  const Real3 left = add3(sumErrors(beside, minus3(part1), rest1), sumErrors(rest1, minus3(part2), rest2));
+  const Real3 lost1 = add3(fma3(b1, e1, minus3(part1)), scale3(b1, sumErrors(p1, minus3(p0), e1)));
+  const Real3 lost2 = add3(fma3(b2, e2, minus3(part2)), scale3(b2, sumErrors(p2, minus3(p0), e2)));
+  const Real3 rest = add3(rest2, add3(besideLow, sub3(sub3(left, lost1), lost2)));
+  const Mask inside = seen & (b1 == free1) & (b2 == free2);
+  at.b0 = seen ? 1.0f - b1 - b2 : found.b0;
+  at.b1 = seen ? b1 : found.b1;
+  at.b2 = seen ? b2 : found.b2;
+  at.low1 = inside ? dots(rest, across1) * inverse : (Real)(0.0f);
+  at.low2 = inside ? dots(rest, across2) * inverse : (Real)(0.0f);
+  return at;
+}
+
+/// interpolateUv for each lane.
+INLINE Real interpolateUvs(Real a, Real b, Real c, const Positions* at, Real* low) {
+  const Real e1 = b - a, e2 = c - a;
+  const Real part1 = at->b1 * e1, part2 = at->b2 * e2;
+  const Real with1 = a + part1, sum = with1 + part2;
+  *low = sumErrorReal(a, part1, with1) + sumErrorReal(with1, part2, sum) + fma(at->b1, e1, -part1) + fma(at->b2, e2, -part2) +
+         at->b1 * sumErrorReal(b, -a, e1) + at->b2 * sumErrorReal(c, -a, e2) + at->low1 * e1 + at->low2 * e2;
+  return sum;
+}
+
+INLINE void interpolateUvSets(__global const float* values, const Natural* corner, const Positions* at, uint set, Uvs* uv) {
+  const Natural a = corner[0] * 2u, b = corner[1] * 2u, c = corner[2] * 2u;
+  uv->u[set] = interpolateUvs(gather(values, a), gather(values, b), gather(values, c), at, &uv->uLow[set]);
+  uv->v[set] = interpolateUvs(gather(values + 1, a), gather(values + 1, b), gather(values + 1, c), at, &uv->vLow[set]);
+}
+
+/// Both sets of texture coordinates; 0 for a set that the scene has not.
+INLINE Uvs uvsAt(const SceneView* scene, const Natural* corner, const Positions* at) {
+  Uvs uv;
+  for (uint set = 0; set < 2; ++set) uv.u[set] = uv.v[set] = uv.uLow[set] = uv.vLow[set] = (Real)(0.0f);
+#if HAS(UV0)
+  if (scene->uv0) interpolateUvSets(scene->uv0, corner, at, 0, &uv);
+#endif
+#if HAS(UV1)
+  if (scene->uv1) interpolateUvSets(scene->uv1, corner, at, 1, &uv);
+#endif
+  return uv;
 }
 
 /// RGBA of a texture slot of each lane's material; 1 where it has none.
-INLINE void textureAt(const SceneView* scene, const Places* at, Natural slots, int srgb, Real rgba[4]) {
-  for (int c = 0; c < 4; ++c) rgba[c] = (Real)(1.0f);
-  uint slot[LANES];
-  STORE(slots, slot);
-  float own[4][LANES];
-  uint used = 0;
-  for (uint k = 0; k < LANES; ++k) used |= ~slot[k];
-  if (used == 0) return;
-  for (uint k = 0; k < LANES; ++k) {
-    const float4 c = (int)slot[k] >= 0 ? sampleTexture(scene, (int)slot[k], &at->uv[k], srgb) : (float4)(1.0f);
-    own[0][k] = c.x, own[1][k] = c.y, own[2][k] = c.z, own[3][k] = c.w;
-  }
-  for (int c = 0; c < 4; ++c) rgba[c] = LOAD(own[c]);
+INLINE Texels textureAt(const SceneView* scene, const Places* at, Natural slots, int srgb) {
+  const Mask used = slots < 0x80000000u;
+  Texels none;
+  for (uint n = 0; n < 4; ++n) none.c[n] = (Real)(1.0f);
+  if (!some(used)) return none;
+  return chooseTexels(used, sampleTextures(scene, used ? slots : (Natural)(0), &at->uv, srgb), none);
 }
 #endif
 
 /// Lanes that hit nothing must name a triangle that is there.
 INLINE Places placesOf(const SceneView* scene, Natural triangleIndex, Real3 o, Real3 d, Real t, Real b1, Real b2) {
   Places at;
-  at.triangles = (__global const float*)scene->triangles;
-  at.materials = (__global const float*)scene->materials;
-  at.triangle = triangleIndex * WORDS_OF(DeviceTriangle);
-  at.material = AS_NATURAL(gather(at.triangles + WORD_OF(DeviceTriangle, material), at.triangle)) * WORDS_OF(DeviceMaterial);
-  at.oneMaterial = !some(at.material != FIRST(at.material));
+  __global const float* triangles = (__global const float*)scene->triangles;
+  const Natural word = triangleIndex * WORDS_OF(DeviceTriangle);
+  at.p0 = gather3(triangles, word);
+  at.p1 = gather3(triangles + 3, word);
+  at.p2 = gather3(triangles + 6, word);
+  at.material = recordsAt(scene->materials, AS_NATURAL(gather(triangles + WORD_OF(DeviceTriangle, material), word)),
+                          WORDS_OF(DeviceMaterial));
   at.b0 = 1.0f - b1 - b2;
   at.b1 = b1;
   at.b2 = b2;
@@ -107,7 +139,10 @@ INLINE Places placesOf(const SceneView* scene, Natural triangleIndex, Real3 o, R
   for (uint k = 0; k < 3; ++k) at.corner[k] = AS_NATURAL(gather((__global const float*)scene->corners + k, triangleIndex * 3u));
 #endif
 #if HAS(TEXTURES)
-  findUvs(scene, &at, triangleIndex, o, d, t);
+  // For texture coordinates alone: what no texture shows keeps its bits whether this is compiled or not.
+  const Positions found = {at.b0, b1, b2, (Real)(0.0f), (Real)(0.0f)};
+  const Positions refined = refinedPositions(at.p0, at.p1, at.p2, o, d, t, found);
+  at.uv = uvsAt(scene, at.corner, &refined);
 #endif
   return at;
 }
@@ -116,11 +151,10 @@ INLINE Places placesOf(const SceneView* scene, Natural triangleIndex, Real3 o, R
 INLINE Real3 baseColorsAt(const SceneView* scene, const Places* at, Real* alpha) {
   const uint word = WORD_OF(DeviceMaterial, baseColor);
   Real c[4];
-  for (uint n = 0; n < 4; ++n) c[n] = materialWord(at, word + n);
+  for (uint n = 0; n < 4; ++n) c[n] = wordOf(&at->material, word + n);
 #if HAS(BASE_COLOR_TEXTURE)
-  Real texel[4];
-  textureAt(scene, at, MATERIAL_BITS(at, baseColorTexture), 1, texel);
-  for (uint n = 0; n < 4; ++n) c[n] *= texel[n];
+  const Texels texel = textureAt(scene, at, MATERIAL_BITS(at, baseColorTexture), 1);
+  for (uint n = 0; n < 4; ++n) c[n] *= texel.c[n];
 #endif
 #if HAS(VERTEX_COLORS)
   if (scene->colors) {
@@ -155,10 +189,9 @@ INLINE Real3 mappedNormals(const SceneView* scene, const Places* at, Real3 n) {
                             gather3(scene->tangents, at->corner[2] * 4u));
   const Real3 tangent = normalized(sub3(along, scale3(dots(n, along), n)));
   const Real3 bitangent = scale3(gather(scene->tangents + 3, at->corner[0] * 4u), crosses(n, tangent));
-  Real texel[4];
-  textureAt(scene, at, slots, 0, texel);
+  const Texels texel = textureAt(scene, at, slots, 0);
   const Real scale = MATERIAL(at, normalScale);
-  const Real x = (texel[0] * 2.0f - 1.0f) * scale, y = (texel[1] * 2.0f - 1.0f) * scale, z = texel[2] * 2.0f - 1.0f;
+  const Real x = (texel.c[0] * 2.0f - 1.0f) * scale, y = (texel.c[1] * 2.0f - 1.0f) * scale, z = texel.c[2] * 2.0f - 1.0f;
   const Real3 tilted = normalized(add3(add3(scale3(x, tangent), scale3(y, bitangent)), scale3(z, n)));
   return choose3(mapped & finite3(tangent) & finite3(tilted), tilted, n);
 }
@@ -173,14 +206,13 @@ INLINE void specularReflectance(const SceneView* scene, const Places* at, Surfel
 #if HAS(SPECULAR_EXTENSION)
   Real strength = MATERIAL(at, specular);
   Real3 tint = MATERIAL3(at, specularColor);
-  Real texel[4];
 #if HAS(SPECULAR_TEXTURE)
-  textureAt(scene, at, MATERIAL_BITS(at, specularTexture), 0, texel);
-  strength *= texel[3];
+  const Texels specular = textureAt(scene, at, MATERIAL_BITS(at, specularTexture), 0);
+  strength *= specular.c[3];
 #endif
 #if HAS(SPECULAR_COLOR_TEXTURE)
-  textureAt(scene, at, MATERIAL_BITS(at, specularColorTexture), 1, texel);
-  tint = mul3(tint, real3(texel[0], texel[1], texel[2]));
+  const Texels specularColor = textureAt(scene, at, MATERIAL_BITS(at, specularColorTexture), 1);
+  tint = mul3(tint, real3(specularColor.c[0], specularColor.c[1], specularColor.c[2]));
 #endif
   const Real3 f0 = scale3(r0, tint), one = same3((float3)(1.0f));
   s->specularF0 = scale3(strength, real3(f0.x < 1.0f ? f0.x : one.x, f0.y < 1.0f ? f0.y : one.y, f0.z < 1.0f ? f0.z : one.z));
@@ -190,7 +222,6 @@ INLINE void specularReflectance(const SceneView* scene, const Places* at, Surfel
 
 /// What the material says at the hits, textures included.
 INLINE void materialAt(const SceneView* scene, const Places* at, Surfel* s) {
-  Real texel[4];
   s->flags = MATERIAL_BITS(at, flags);
   Real alpha;
   s->baseColor = baseColorsAt(scene, at, &alpha);
@@ -201,16 +232,16 @@ INLINE void materialAt(const SceneView* scene, const Places* at, Surfel* s) {
   s->metallic = MATERIAL(at, metallic);
   s->roughness = MATERIAL(at, roughness);
 #if HAS(METALLIC_ROUGHNESS_TEXTURE)
-  textureAt(scene, at, MATERIAL_BITS(at, metallicRoughnessTexture), 0, texel);
-  s->metallic *= texel[2];
-  s->roughness *= texel[1];
+  const Texels metallicRoughness = textureAt(scene, at, MATERIAL_BITS(at, metallicRoughnessTexture), 0);
+  s->metallic *= metallicRoughness.c[2];
+  s->roughness *= metallicRoughness.c[1];
 #endif
   s->metallic = clampUnit(s->metallic);
   s->roughness = clampUnit(s->roughness);
   s->transmission = MATERIAL(at, transmission);
 #if HAS(TRANSMISSION_TEXTURE)
-  textureAt(scene, at, MATERIAL_BITS(at, transmissionTexture), 0, texel);
-  s->transmission *= texel[0];
+  const Texels transmission = textureAt(scene, at, MATERIAL_BITS(at, transmissionTexture), 0);
+  s->transmission *= transmission.c[0];
 #endif
   s->ior = MATERIAL(at, ior);
   s->sigma_a = MATERIAL3(at, sigma_a);
@@ -219,8 +250,8 @@ INLINE void materialAt(const SceneView* scene, const Places* at, Surfel* s) {
 #if HAS(EMISSION)
   Real3 emission = MATERIAL3(at, emission);
 #if HAS(EMISSION_TEXTURE)
-  textureAt(scene, at, MATERIAL_BITS(at, emissionTexture), 1, texel);
-  emission = mul3(emission, real3(texel[0], texel[1], texel[2]));
+  const Texels glow = textureAt(scene, at, MATERIAL_BITS(at, emissionTexture), 1);
+  emission = mul3(emission, real3(glow.c[0], glow.c[1], glow.c[2]));
 #endif
   s->emission = choose3(s->front | ((s->flags & MATERIAL_DOUBLE_SIDED) != 0), emission, s->emission);
 #endif
@@ -242,8 +273,7 @@ INLINE Surfel surfelAt(const SceneView* scene, const RenderConstants* constants,
                        Real b1, Real b2) {
   Surfel s;
   const Places at = placesOf(scene, triangleIndex, o, d, t, b1, b2);
-  const Real3 p0 = gather3(at.triangles, at.triangle), p1 = gather3(at.triangles + 3, at.triangle),
-              p2 = gather3(at.triangles + 6, at.triangle);
+  const Real3 p0 = at.p0, p1 = at.p1, p2 = at.p2;
   s.position = blend(&at, p0, p1, p2);
   s.bump = bumpAt(constants, &at, p0, p1, p2);
   const Real3 n_g = normalized(crosses(sub3(p1, p0), sub3(p2, p0)));

@@ -14,6 +14,21 @@ namespace {
 using reference::Vec2;
 using reference::Vec3;
 
+/// One hit in all lanes.
+constexpr const char* kLanes = R"(
+Positions given(uint i, __global const float* hits) {
+  const float b1 = hits[3 * i + 1], b2 = hits[3 * i + 2];
+  const Positions at = {(Real)(1.0f - b1 - b2), (Real)(b1), (Real)(b2), (Real)(0.0f), (Real)(0.0f)};
+  return at;
+}
+Positions refined(uint i, __global const float* corners, __global const float* o, __global const float* d,
+                  __global const float* hits) {
+  return refinedPositions(same3(vload3(3 * i, corners)), same3(vload3(3 * i + 1, corners)),
+                          same3(vload3(3 * i + 2, corners)), same3(vload3(i, o)), same3(vload3(i, d)),
+                          (Real)(hits[3 * i]), given(i, hits));
+}
+)";
+
 /// Out: texture coordinate from the barycentrics as given, and from the refined ones; each as high and low
 /// parts.
 constexpr const char* kKernels = R"(
@@ -21,18 +36,13 @@ __kernel void coordinates(uint n, __global const float* corners, __global const 
                           __global const float* d, __global const float* hits, __global float* out) {
   const uint i = get_global_id(0);
   if (i >= n) return;
-  float3 p[3];
-  for (uint k = 0; k < 3; ++k) p[k] = vload3(3 * i + k, corners);
-  const Barycentrics given = barycentrics(hits[3 * i + 1], hits[3 * i + 2]);
-  const Barycentrics refined = refinedBarycentrics(p, vload3(i, o), vload3(i, d), hits[3 * i], given);
-  const uint corner[3] = {3 * i, 3 * i + 1, 3 * i + 2};
-  float2 high, low;
-  interpolateUvSet(uv, corner, &given, &high, &low);
-  vstore2(high, 4 * i, out);
-  vstore2(low, 4 * i + 1, out);
-  interpolateUvSet(uv, corner, &refined, &high, &low);
-  vstore2(high, 4 * i + 2, out);
-  vstore2(low, 4 * i + 3, out);
+  const Positions places[2] = {given(i, hits), refined(i, corners, o, d, hits)};
+  const Natural corner[3] = {(Natural)(3 * i), (Natural)(3 * i + 1), (Natural)(3 * i + 2)};
+  for (uint k = 0; k < 2; ++k) {
+    Uvs at;
+    interpolateUvSets(uv, corner, &places[k], 0, &at);
+    vstore4((float4)(FIRST(at.u[0]), FIRST(at.v[0]), FIRST(at.uLow[0]), FIRST(at.vLow[0])), 2 * i + k, out);
+  }
 }
 )";
 
@@ -85,7 +95,7 @@ Hits grazingHits(test::Rng& rng, int count) {
 /// A texel of 1024 is 1e-3 of a repeat. What single precision gives is off by whole percents of one here;
 /// what the refined hit gives must be off by less than a ten-thousandth, so that no picture shows it.
 TEST(Surfel, TextureCoordinatesOfGrazingHitsAreExact) {
-  test::KernelBench bench({"shade.cl"}, kKernels);
+  test::KernelBench bench({"shade.cl"}, std::string(kLanes) + kKernels);
   test::Rng rng(61);
   const Hits hits = grazingHits(rng, 5000);
   const auto n = static_cast<std::uint32_t>(hits.expected.size());
@@ -113,16 +123,13 @@ __kernel void refine(uint n, __global const float* corners, __global const float
                      __global const float* hits, __global float* out) {
   const uint i = get_global_id(0);
   if (i >= n) return;
-  float3 p[3];
-  for (uint k = 0; k < 3; ++k) p[k] = vload3(3 * i + k, corners);
-  const Barycentrics given = barycentrics(hits[3 * i + 1], hits[3 * i + 2]);
-  const Barycentrics b = refinedBarycentrics(p, vload3(i, o), vload3(i, d), hits[3 * i], given);
-  vstore3((float3)(b.b0, b.b1, b.b2), i, out);
-  out[3 * n + 2 * i] = b.low1;
-  out[3 * n + 2 * i + 1] = b.low2;
+  const Positions at = refined(i, corners, o, d, hits);
+  vstore3((float3)(FIRST(at.b0), FIRST(at.b1), FIRST(at.b2)), i, out);
+  out[3 * n + 2 * i] = FIRST(at.low1);
+  out[3 * n + 2 * i + 1] = FIRST(at.low2);
 }
 )";
-  test::KernelBench bench({"shade.cl"}, kRefine);
+  test::KernelBench bench({"shade.cl"}, std::string(kLanes) + kRefine);
   test::Rng rng(62);
   Hits hits;
   const std::uint32_t n = 20000;

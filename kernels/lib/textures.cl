@@ -1,0 +1,94 @@
+// Texture lookups of LANES hits side by side: texture.cl in lanes, so that the loads of all of them are under way at once.
+#include "lib/lanes.cl"
+#include "lib/texture.cl"
+
+/// Texture coordinates of both sets, each with what its rounding lost.
+typedef struct {
+  Real u[2], v[2], uLow[2], vLow[2];
+} Uvs;
+
+INLINE Real wrapCoordinates(Real u, Real low, Natural mode) {
+  const Real one = (Real)(1.0f), zero = (Real)(0.0f);
+  const Real clamped = u > 0.0f ? (u < 1.0f ? u + low : one) : zero;
+  const Real m = (u - 2.0f * floor(u * 0.5f)) + low;
+  const Real mirrored = m > 1.0f ? 2.0f - m : m;
+  return mode == WRAP_REPEAT ? (u - floor(u)) + low : (mode == WRAP_CLAMP ? clamped : mirrored);
+}
+
+/// One row of the textures' transforms, from word `row`, and what its rounding lost.
+INLINE Real transformCoordinates(const Records* texture, uint row, Real u, Real v, Real uLow, Real vLow, Real* low) {
+  const Real m0 = wordOf(texture, row), m1 = wordOf(texture, row + 1), m2 = wordOf(texture, row + 2);
+  const Real part0 = m0 * u, part1 = m1 * v;
+  const Real both = part0 + part1, sum = both + m2;
+  *low = fma(m0, u, -part0) + fma(m1, v, -part1) + sumErrorReal(part0, part1, both) + sumErrorReal(both, m2, sum) + m0 * uLow +
+         m1 * vLow;
+  return sum;
+}
+
+INLINE Mask wrapTexels(Mask i, Mask size, Natural mode) {
+  const Mask repeats = mode == WRAP_REPEAT, zero = (Mask)(0);
+  i = i < 0 ? (repeats ? size - 1 : zero) : i;
+  i = i >= size ? (repeats ? i - size : size - 1) : i;
+  return i < 0 ? zero : (i >= size ? size - 1 : i);
+}
+
+typedef struct {
+  Real c[4];  // RGBA, linear
+} Texels;
+
+INLINE Texels fetchTexels(const SceneView* scene, const Records* texture, Mask x, Mask y, int srgb) {
+  const Natural first = FIELD_BITS(texture, DeviceTexture, firstTexel), width = FIELD_BITS(texture, DeviceTexture, width);
+  const Natural at = first + AS_NATURAL(y) * width + AS_NATURAL(x);
+  const Natural word = AS_NATURAL(gather((__global const float*)scene->texels, at));
+  Texels t;
+  for (uint n = 0; n < 4; ++n) {
+    const Natural byte = (word >> (8 * n)) & 255u;
+    t.c[n] = srgb && n < 3 ? gather(scene->linearFromSrgb, byte) : TO_REAL(byte) / 255.0f;
+  }
+  return t;
+}
+
+INLINE Texels chooseTexels(Mask m, Texels a, Texels b) {
+  for (uint n = 0; n < 4; ++n) a.c[n] = m ? a.c[n] : b.c[n];
+  return a;
+}
+
+/// RGBA of a texture slot for each lane at the transformed coordinate.
+INLINE Texels sampleTextures(const SceneView* scene, Natural slots, const Uvs* uv, int srgb) {
+  const Records texture = recordsAt(scene->textures, slots, WORDS_OF(DeviceTexture));
+  const Mask isFirst = FIELD_BITS(&texture, DeviceTexture, uvSet) == 0;
+  const Real s = isFirst ? uv->u[0] : uv->u[1], sLow = isFirst ? uv->uLow[0] : uv->uLow[1];
+  const Real t = isFirst ? uv->v[0] : uv->v[1], tLow = isFirst ? uv->vLow[0] : uv->vLow[1];
+  const uint rows = WORD_OF(DeviceTexture, transform);
+  const Mask width = TO_SIGNED(FIELD_BITS(&texture, DeviceTexture, width));
+  const Mask height = TO_SIGNED(FIELD_BITS(&texture, DeviceTexture, height));
+  const Natural wrapS = FIELD_BITS(&texture, DeviceTexture, wrapS), wrapT = FIELD_BITS(&texture, DeviceTexture, wrapT);
+  Real uLow, vLow;
+  Real u = transformCoordinates(&texture, rows, s, t, sLow, tLow, &uLow);
+  Real v = transformCoordinates(&texture, rows + 3, s, t, sLow, tLow, &vLow);
+  const Mask lost = !(isfinite(u + uLow) & isfinite(v + vLow)), zero = (Mask)(0);
+  u = lost ? (Real)(0.0f) : wrapCoordinates(u, uLow, wrapS) * TO_REAL(width);
+  v = lost ? (Real)(0.0f) : wrapCoordinates(v, vLow, wrapT) * TO_REAL(height);
+  const Real x = u - 0.5f, y = v - 0.5f;
+  const Real fx = floor(x), fy = floor(y);
+  const Real wx = x - fx, wy = y - fy;
+  const Mask x0 = wrapTexels(TO_WHOLE(fx), width, wrapS), x1 = wrapTexels(TO_WHOLE(fx) + 1, width, wrapS);
+  const Mask y0 = wrapTexels(TO_WHOLE(fy), height, wrapT), y1 = wrapTexels(TO_WHOLE(fy) + 1, height, wrapT);
+  const Texels t00 = fetchTexels(scene, &texture, x0, y0, srgb), t10 = fetchTexels(scene, &texture, x1, y0, srgb);
+  const Texels t01 = fetchTexels(scene, &texture, x0, y1, srgb), t11 = fetchTexels(scene, &texture, x1, y1, srgb);
+  Texels result;
+  for (uint n = 0; n < 4; ++n) {
+    const Real top = t00.c[n] * (1.0f - wx) + t10.c[n] * wx;
+    const Real low = t01.c[n] * (1.0f - wx) + t11.c[n] * wx;
+    result.c[n] = top * (1.0f - wy) + low * wy;
+  }
+#if HAS(NEAREST_FILTER)
+  const Mask nearest = FIELD_BITS(&texture, DeviceTexture, nearest) != 0;
+  if (some(nearest)) {
+    const Mask nx = wrapTexels(TO_WHOLE(floor(u)), width, wrapS), ny = wrapTexels(TO_WHOLE(floor(v)), height, wrapT);
+    result = chooseTexels(nearest, fetchTexels(scene, &texture, nx, ny, srgb), result);
+  }
+#endif
+  if (some(lost)) result = chooseTexels(lost, fetchTexels(scene, &texture, zero, zero, srgb), result);
+  return result;
+}

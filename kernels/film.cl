@@ -53,7 +53,7 @@ __kernel void film(const Batch batch, const uint capacity, const uint pixels, co
     const Mask finite = isfinite(value[0]) & isfinite(value[1]) & isfinite(value[2]);
     if (some(!finite)) {
       int lost[LANES];
-      STORE(!finite & 1, lost);
+      STORE(!finite, lost);
       for (uint lane = 0; lane < active; ++lane)
         if (lost[lane]) atomic_inc(counters + COUNTER_NONFINITE);
     }

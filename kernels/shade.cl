@@ -47,7 +47,7 @@ INLINE Real absorbed(Real sigma, Real t) {
 INLINE Real3 absorptionAlong(const Surfel* s, Real t) {
   const Real3 none = same3((float3)(1.0f));
 #if HAS(ABSORPTION)
-  const Mask inside = !s->front & ((s->flags & MATERIAL_VOLUME) != 0);
+  const Mask inside = ((s->flags & MATERIAL_VOLUME) != 0) & !s->front;
   if (some(inside))
     return choose3(inside, real3(absorbed(s->sigma_a.x, t), absorbed(s->sigma_a.y, t), absorbed(s->sigma_a.z, t)), none);
 #endif

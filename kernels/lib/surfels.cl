@@ -34,9 +34,7 @@ typedef struct {
   Records material;
   Natural corner[3];
   Real b0, b1, b2;
-#if HAS(TEXTURES)
   Uvs uv;
-#endif
 } Places;
 
 #define MATERIAL(at, field) FIELD(&(at)->material, DeviceMaterial, field)
@@ -50,7 +48,6 @@ INLINE Real3 blend(const Places* at, Real3 a, Real3 b, Real3 c) {
   return add3(add3(scale3(at->b0, a), scale3(at->b1, b)), scale3(at->b2, c));
 }
 
-#if HAS(TEXTURES)
 INLINE Real3 fma3(Real s, Real3 v, Real3 plus) { return real3(fma(s, v.x, plus.x), fma(s, v.y, plus.y), fma(s, v.z, plus.z)); }
 
 /// Barycentrics of the hits at distance t of the rays o + t d, found again from where those points lie beside the first
@@ -120,7 +117,6 @@ INLINE Texels textureAt(const SceneView* scene, const Places* at, Natural slots,
   if (!some(used)) return none;
   return chooseTexels(used, sampleTextures(scene, used ? slots : (Natural)(0), &at->uv, srgb), none);
 }
-#endif
 
 /// Lanes that hit nothing must name a triangle that is there.
 INLINE Places placesOf(const SceneView* scene, Natural triangleIndex, Real3 o, Real3 d, Real t, Real b1, Real b2) {
@@ -137,13 +133,15 @@ INLINE Places placesOf(const SceneView* scene, Natural triangleIndex, Real3 o, R
   at.b2 = b2;
 #if HAS(VERTEX_NORMALS) || HAS(VERTEX_COLORS) || HAS(TEXTURES)
   for (uint k = 0; k < 3; ++k) at.corner[k] = AS_NATURAL(gather((__global const float*)scene->corners + k, triangleIndex * 3u));
+#else
+  for (uint k = 0; k < 3; ++k) at.corner[k] = (Natural)(0);  // nothing is interpolated, and the buffer is not there
 #endif
+  Positions forTextures = {at.b0, b1, b2, (Real)(0.0f), (Real)(0.0f)};
 #if HAS(TEXTURES)
   // For texture coordinates alone: what no texture shows keeps its bits whether this is compiled or not.
-  const Positions found = {at.b0, b1, b2, (Real)(0.0f), (Real)(0.0f)};
-  const Positions refined = refinedPositions(at.p0, at.p1, at.p2, o, d, t, found);
-  at.uv = uvsAt(scene, at.corner, &refined);
+  forTextures = refinedPositions(at.p0, at.p1, at.p2, o, d, t, forTextures);
 #endif
+  at.uv = uvsAt(scene, at.corner, &forTextures);
   return at;
 }
 
@@ -175,7 +173,7 @@ INLINE Real3 vertexNormalsAt(const SceneView* scene, const Places* at, Real3 n_g
               c = gather3(scene->normals, at->corner[2] * 3u);
   const Mask missing = (dots(a, a) == 0.0f) | (dots(b, b) == 0.0f) | (dots(c, c) == 0.0f);
   const Real3 n = normalized(blend(at, a, b, c));
-  return choose3(!missing & finite3(n), n, n_g);
+  return choose3(missing, n_g, choose3(finite3(n), n, n_g));
 }
 #endif
 

@@ -51,7 +51,7 @@ QueryRunner::QueryRunner(Compute& compute, const Scene& scene, const TriTree& tr
   const std::string options = fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x}", kernel.features);
   stages_.emplace(compute_,
                   compute_.build(assembleKernelSource({"intersect.cl", "occlude.cl"}, kernelFolder), options),
-                  64);
+                  defaultWorkGroup(SceneFeatures::ofBits(kernel.features)));
   scene_ = uploadScene(compute_, bareScene(scene), tree_, SceneFeatures::ofBits(kernel.features));
 }
 
@@ -61,9 +61,7 @@ std::size_t QueryRunner::sceneBytes() const {
   return bytes;
 }
 
-std::size_t QueryRunner::nodeBytes() const {
-  return scene_.wideNodes.bytes + scene_.nodes.bytes;
-}
+std::size_t QueryRunner::nodeBytes() const { return scene_.wideNodes.bytes + scene_.nodes.bytes; }
 
 std::size_t QueryRunner::triangleBytes() const {
   return scene_.leaves ? scene_.leaves.bytes : scene_.triangles.bytes;

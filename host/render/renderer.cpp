@@ -95,7 +95,7 @@ class Session {
     const bool cpu = compute_->device().kind == "cpu";
     features_ = SceneFeatures::analyse(scene_, settings_, {cpu});
     compactChunk_ = cpu ? 1024 : 32;
-    workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : 64;
+    workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : defaultWorkGroup(features_);
     if (static_cast<std::uint64_t>(workGroup_) > compute_->device().maxWorkGroup)
       throw InputError(fmt::format("--work-group: {} allows at most {}", compute_->device().name,
                                    compute_->device().maxWorkGroup));

@@ -5,6 +5,8 @@
 
 namespace whittle {
 
+int defaultWorkGroup(const SceneFeatures& features) { return features.has(Feature::PACKETS) ? 8 : 64; }
+
 StageRunner::StageRunner(Compute& compute, cl::Program program, int workGroup)
     : compute_(compute), program_(std::move(program)), workGroup_(static_cast<std::size_t>(workGroup)) {}
 

@@ -16,6 +16,11 @@
 
 namespace whittle {
 
+/// Work items of a group where the user does not say: 64, as GPUs like them; with packets 8. PoCL hands a
+/// thread at least 32 groups at a time, and large ones would leave the other threads without work at the end
+/// of every launch.
+int defaultWorkGroup(const SceneFeatures& features);
+
 class StageRunner {
  public:
   /// `workGroup` work items at a time; every launch of a kernel uses the same, because PoCL compiles each

@@ -13,9 +13,11 @@ typedef struct {
   float16 o[3];
   float16 d[3];
   float16 inverse[3];
-  float16 shear[3];  // sx, sy, sz of each lane's own axes
-  int16 kz;          // largest axis of the direction
-  int axes[3];       // 1: some lane has this axis
+  float16 nearBias[3], farBias[3];  // as in WideRay
+  float16 shear[3];                 // sx, sy, sz of each lane's own axes
+  int16 kz;                         // largest axis of the direction
+  int axes[3];                      // 1: some lane has this axis
+  int mixed;                        // 1: lanes differ in it
 } Packet;
 
 typedef struct {
@@ -32,6 +34,9 @@ INLINE Packet makePacket(const float16* o, const float16* d) {
     p.o[a] = o[a];
     p.d[a] = d[a];
     p.inverse[a] = boxInverse16(d[a]);
+    const float16 bias = -p.o[a] * p.inverse[a], margin = fabs(bias) * BIAS_MARGIN;
+    p.nearBias[a] = bias - margin;
+    p.farBias[a] = bias + margin;
   }
   const float16 ax = fabs(d[0]), ay = fabs(d[1]), az = fabs(d[2]);
   const int16 xFirst = (ax > ay) & (ax > az);
@@ -40,6 +45,7 @@ INLINE Packet makePacket(const float16* o, const float16* d) {
   p.axes[0] = anyOf16(xFirst);
   p.axes[1] = anyOf16(yFirst);
   p.axes[2] = anyOf16(~(xFirst | yFirst));
+  p.mixed = p.axes[0] + p.axes[1] + p.axes[2] > 1;
   const float16 dkz = select(select(d[2], d[1], yFirst), d[0], xFirst);
   const float16 dkx = select(select(d[0], d[2], yFirst), d[1], xFirst);
   const float16 dky = select(select(d[1], d[0], yFirst), d[2], xFirst);
@@ -77,7 +83,7 @@ INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint
   const float16 v = differenceOfProducts16(ax, cy, ay, cx);
   const float16 w = differenceOfProducts16(bx, ay, by, ax);
   int16 inside = ((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f));
-  inside &= p->kz == kz;
+  if (p->mixed) inside &= p->kz == kz;
   if (!anyOf16(inside)) return inside;
   const float16 det = u + v + w;
   *t = fma(u, az, fma(v, bz, w * cz)) * p->shear[2] / det;
@@ -279,12 +285,12 @@ INLINE int8 packetChildren(const PacketBounds* b, __global const float* node, fl
 /// True if some ray of the packet enters lane `child` of a node before its own tMax. For packets that run together.
 INLINE int entersChild(const Packet* p, const PacketBounds* b, float16 tMax, __global const float* node, uint child) {
   __global const float* box = node + child;
-  const float16 nearX = (box[b->nearPlane[0]] - p->o[0]) * p->inverse[0];
-  const float16 nearY = (box[b->nearPlane[1]] - p->o[1]) * p->inverse[1];
-  const float16 nearZ = (box[b->nearPlane[2]] - p->o[2]) * p->inverse[2];
-  const float16 farX = (box[24 - b->nearPlane[0]] - p->o[0]) * p->inverse[0];
-  const float16 farY = (box[40 - b->nearPlane[1]] - p->o[1]) * p->inverse[1];
-  const float16 farZ = (box[56 - b->nearPlane[2]] - p->o[2]) * p->inverse[2];
+  const float16 nearX = fma((float16)(box[b->nearPlane[0]]), p->inverse[0], p->nearBias[0]);
+  const float16 nearY = fma((float16)(box[b->nearPlane[1]]), p->inverse[1], p->nearBias[1]);
+  const float16 nearZ = fma((float16)(box[b->nearPlane[2]]), p->inverse[2], p->nearBias[2]);
+  const float16 farX = fma((float16)(box[24 - b->nearPlane[0]]), p->inverse[0], p->farBias[0]);
+  const float16 farY = fma((float16)(box[40 - b->nearPlane[1]]), p->inverse[1], p->farBias[1]);
+  const float16 farZ = fma((float16)(box[56 - b->nearPlane[2]]), p->inverse[2], p->farBias[2]);
   const float16 enter = largest16(nearX, nearY, nearZ, (float16)(0.0f));
   const float16 leave = smallest16(farX, farY, farZ, tMax);
   return anyOf16(enter <= leave * FAR_WIDENING);

@@ -66,7 +66,8 @@ __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity,
   const Packet p = makePacket(o, d);
   const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const float16 length = loadLanes(&s, shadows + (size_t)SHADOW_LENGTH * capacity);
-  float16 tMax = select((float16)(-1.0f), length, lane < (int)s.active);
+  // Nothing lies before a length of 0, less, or NaN.
+  float16 tMax = select((float16)(-1.0f), length, (lane < (int)s.active) & (length > 0.0f));
   uint stops[3 * PACKET_RAYS];
 #if HAS(FILTERED_SHADOWS) || HAS(ALPHA_MASK)
   for (int k = 0; k < 3 * PACKET_RAYS; ++k) stops[k] = 0;

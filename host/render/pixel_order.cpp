@@ -31,7 +31,8 @@ std::vector<std::uint32_t> makePixelOrder(std::uint32_t width, std::uint32_t hei
   for (std::uint32_t by = 0; by < rows; by += kSide)
     for (std::uint32_t bx = 0; bx < columns; bx += kSide)
       for (std::uint64_t code = 0; code < std::uint64_t{kSide} * kSide; ++code) {
-        const std::uint32_t tx = bx + evenBits(code), ty = by + evenBits(code >> 1);
+        // Down first: two tiles are a square of 4×4 pixels.
+        const std::uint32_t tx = bx + evenBits(code >> 1), ty = by + evenBits(code);
         if (tx < columns && ty < rows) appendTile(order, tx * 4, ty * 2, width, height);
       }
   return order;

@@ -1,5 +1,5 @@
 // The order in which pixels enter the queues: small tiles along a space-filling curve, so that neighbours in
-// the queue are neighbours in the picture and a packet of eight rays is a 4×2 tile.
+// the queue are neighbours in the picture and a packet of sixteen rays is a 4×4 tile.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace whittle {
 
 /// y << 16 | x for each pixel, once each. Sides up to 65535. Tiles of 4×2 pixels along a Morton curve (Morton
-/// 1966).
+/// 1966) that goes down first.
 std::vector<std::uint32_t> makePixelOrder(std::uint32_t width, std::uint32_t height);
 
 }  // namespace whittle

@@ -21,7 +21,7 @@ enum class Feature : int {
 
 /// What only the device decides.
 struct DeviceTraits {
-  bool cpu = true;  ///< packets of eight suit its vector units
+  bool cpu = true;  ///< packets of sixteen suit its vector units
 };
 
 struct FeatureLine {

@@ -1,4 +1,4 @@
-// The forms of the search (one ray or eight, array, tree or eight-wide tree) give the same bits on random
+// The forms of the search (one ray or sixteen, array or tree) give the same bits on random
 // scenes, the triangle that exact arithmetic finds, and any-hit answers that agree with the nearest hit.
 #include <gtest/gtest.h>
 

@@ -41,7 +41,7 @@ TEST(RenderStats, BuffersAreListedByGroup) {
   }
   EXPECT_EQ(groups.size(), 5U);
   EXPECT_EQ(json["memory"]["total"], total);
-  EXPECT_EQ(groups["film"], (8U + 1) * 96 * 54 * 4) << "eight sums and the order of the pixels";
+  EXPECT_EQ(groups["film"], (3U + 1) * 96 * 54 * 4) << "one ray each: the sums and the order of the pixels";
 }
 
 TEST(RenderStats, JsonHasEveryKey) {

@@ -23,7 +23,7 @@ struct TreeNode {
 static_assert(sizeof(TreeNode) == 64);
 
 struct TriTree {
-  std::vector<TreeNode> nodes;       ///< nodes[0] is the root; at least one node
+  std::vector<TreeNode> nodes;       ///< depth-first from the root; at least one node
   std::vector<std::uint32_t> order;  ///< triangle indices in leaf order; degenerate triangles left out
   int depth = 0;                     ///< nodes on the longest path, root = 1; never above kMaxTreeDepth
 };

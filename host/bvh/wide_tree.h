@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
 #include "bvh/tri_tree.h"
+#include "bvh/uninitialized.h"
 
 namespace whittle {
 
@@ -23,11 +23,11 @@ struct WideNode {
 static_assert(sizeof(WideNode) == 256);
 
 struct WideTree {
-  std::vector<WideNode> nodes;  ///< nodes[0] is the root
+  UninitializedVector<WideNode> nodes;  ///< nodes[0] is the root
   /// Corners of the triangles, m, leaf by leaf as a struct of arrays: coordinate `axis` of corner k of
   /// triangle first + lane is corners[9 first + (3 k + axis) count + lane]. Eight floats more at the end, so
   /// that a lane beyond the last leaf's count may be read.
-  std::vector<float> corners;
+  UninitializedVector<float> corners;
   std::size_t leaves = 0;
   int stack = 0;  ///< entries that a search may have waiting: the most children left over on any way down
   int depth = 0;  ///< nodes on the longest way down
@@ -36,7 +36,7 @@ struct WideTree {
 /// Collapses `tree` so that the expected cost of a search (surface area heuristic) is least: which subtrees
 /// become nodes of their own, which are handed up to their parent's free lanes, which become leaves (Ylitie,
 /// Karras, Laine 2017). Opening the child of the largest box until there are eight instead leaves half of the
-/// lanes empty.
+/// lanes empty. Parallel with TBB over the calling arena's threads; the result depends on the input alone.
 WideTree buildWideTree(const TriTree& tree, std::span<const glm::vec3> positions,
                        std::span<const glm::uvec3> triangles);
 

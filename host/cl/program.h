@@ -37,8 +37,8 @@ class Compute {
   Buffer allocate(const std::string& name, std::size_t bytes);
   /// Allocates and fills from host memory; empty data gives an empty Buffer.
   Buffer upload(const std::string& name, const void* data, std::size_t bytes);
-  template <typename T>
-  Buffer upload(const std::string& name, const std::vector<T>& data) {
+  template <typename T, typename Allocator>
+  Buffer upload(const std::string& name, const std::vector<T, Allocator>& data) {
     return upload(name, data.data(), data.size() * sizeof(T));
   }
   /// Blocking copy of a whole buffer from the host.

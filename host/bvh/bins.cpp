@@ -48,23 +48,6 @@ namespace {
 
 Float4 toFloat(Int4 v) { return __builtin_convertvector(v, Float4); }
 
-/// Half areas of three boxes, lane k for box k, of edges multiplied by `scale`. NaN or infinite for empty
-/// boxes.
-Float4 halfAreas(const Box4 (&box)[3], Float4 scale) {
-  const Float4 a = box[0].hi - box[0].lo, b = box[1].hi - box[1].lo, c = box[2].hi - box[2].lo;
-  // Scaled only here: lane 3 of a, b, c may be a denormal, which is slow to multiply.
-  const Float4 x = Float4{a[0], b[0], c[0], 0} * scale;
-  const Float4 y = Float4{a[1], b[1], c[1], 0} * scale;
-  const Float4 z = Float4{a[2], b[2], c[2], 0} * scale;
-  return x * (y + z) + y * z;
-}
-
-/// 1 / the longest edge: areas relative to the node neither overflow nor vanish in float.
-Float4 relativeScale(const Box4& box) {
-  const Float4 d = box.hi - box.lo;
-  return splat4(1 / std::max({d[0], d[1], d[2]}));
-}
-
 /// The box of bins [from, to) on an axis.
 Box4 boxOf(const Bins& bins, int axis, int from, int to, std::uint32_t& count) {
   Box4 box;

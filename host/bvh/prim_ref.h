@@ -2,6 +2,7 @@
 // them to. Read and written by the builder's files of this folder only; nothing of it survives the build.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -37,6 +38,23 @@ inline double halfArea(const Box4& b) {
   const double y = static_cast<double>(b.hi[1]) - static_cast<double>(b.lo[1]);
   const double z = static_cast<double>(b.hi[2]) - static_cast<double>(b.lo[2]);
   return x * (y + z) + y * z;
+}
+
+/// Half areas of three boxes, lane k for box k, of edges multiplied by `scale`. NaN or infinite for empty
+/// boxes.
+inline Float4 halfAreas(const Box4 (&box)[3], Float4 scale) {
+  const Float4 a = box[0].hi - box[0].lo, b = box[1].hi - box[1].lo, c = box[2].hi - box[2].lo;
+  // Scaled only here: lane 3 of a, b, c may be a denormal, which is slow to multiply.
+  const Float4 x = Float4{a[0], b[0], c[0], 0} * scale;
+  const Float4 y = Float4{a[1], b[1], c[1], 0} * scale;
+  const Float4 z = Float4{a[2], b[2], c[2], 0} * scale;
+  return x * (y + z) + y * z;
+}
+
+/// 1 / the longest edge: areas relative to the node neither overflow nor vanish in float.
+inline Float4 relativeScale(const Box4& box) {
+  const Float4 d = box.hi - box.lo;
+  return splat4(1 / std::max({d[0], d[1], d[2]}));
 }
 
 /// One triangle on its way into a leaf: its box, and its index as the bits of lane 3 of `lo`.

@@ -11,6 +11,7 @@
 #include "bvh/chunks.h"
 #include "bvh/prim_ref.h"
 #include "bvh/tri_tree_builder.h"
+#include "bvh/uninitialized.h"
 
 namespace whittle {
 
@@ -92,15 +93,16 @@ TriTree buildTriTree(std::span<const glm::vec3> positions, std::span<const glm::
   if (triangles.size() > kMaxTriangles)
     throw std::length_error(
         fmt::format("{} triangles are more than a tree can hold: {}", triangles.size(), kMaxTriangles));
-  auto refs = std::make_unique_for_overwrite<PrimRef[]>(triangles.size());
-  const BuildRange all = makeRefs(positions, triangles, {refs.get(), triangles.size()});
+  UninitializedVector<PrimRef> refs(triangles.size());
+  const BuildRange all = makeRefs(positions, triangles, refs);
   TriTree tree;
   tree.order.resize(all.size());
-  const TriTreeBuilder builder({refs.get(), all.size()}, tree.order, options);
+  const TriTreeBuilder builder({refs.data(), all.size()}, tree.order, options);
   std::unique_ptr<Subtree> top = builder.build(all);
-  refs.reset();
+  refs = {};
   tree.depth = top->depth;
   tree.nodes.reserve(countNodes(*top));
+  adviseLargePages(tree.nodes.data(), tree.nodes.capacity() * sizeof(TreeNode));
   append(std::move(top), tree.nodes);
   return tree;
 }

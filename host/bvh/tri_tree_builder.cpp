@@ -132,33 +132,47 @@ bool TriTreeBuilder::split(const BuildRange& range, int depth, Children& childre
   assert(levels <= kMaxTreeDepth - depth + 1);
   // A split by area may leave all but one triangle to a child, for which the levels below must be enough.
   if (depth <= kMaxTreeDepth && levels <= kMaxTreeDepth - depth) {
-    const BinMap map(range.centroids, binCount(n, options_.bins));
-    if (map.usable()) {
-      const BinSplit plane = bestSplit(binRange(refs(range), map), map, range.box);
-      if (n <= maxLeaf && !worthSplitting(range, plane)) return false;
-      // A plane that leaves nearly all of the cost: a split by size may do better.
-      const double area = halfArea(range.box);
-      if (plane.axis >= 0 && n > maxLeaf && plane.cost() > kPoorPlane * area * n) {
-        const SizeSplit sizes = bestSizeSplit(refs(range), area);
-        if (sizes.bin > 0 && sizes.cost() < plane.cost()) {
-          splitBySize(range, sizes, children);
-          return true;
-        }
-      }
-      if (plane.axis >= 0) {
-        splitAtPlane(range, map, plane, children);
-        return true;
-      }
-    }
+    if (n <= kSmallRange ? splitSmall(range, children) : splitLarge(range, children)) return true;
   }
   if (n <= maxLeaf) return false;
   splitAtMedian(range, children);
   return true;
 }
 
+bool TriTreeBuilder::splitSmall(const BuildRange& range, Children& children) const {
+  const SmallSplit split = bestSmallSplit(refs(range), range.box, range.centroids);
+  if (split.plane.axis < 0) return false;
+  if (mayBeLeaf(range) && !worthSplitting(range, split.plane)) return false;
+  splitSorted(range, split, children);
+  return true;
+}
+
+bool TriTreeBuilder::splitLarge(const BuildRange& range, Children& children) const {
+  const BinMap map(range.centroids, binCount(range.size(), options_.bins));
+  if (!map.usable()) return false;
+  const BinSplit plane = bestSplit(binRange(refs(range), map), map, range.box);
+  if (plane.axis < 0) return false;
+  if (mayBeLeaf(range) && !worthSplitting(range, plane)) return false;
+  // A plane that leaves nearly all of the cost: a split by size may do better.
+  const double area = halfArea(range.box);
+  if (!mayBeLeaf(range) && plane.cost() > kPoorPlane * area * range.size()) {
+    const SizeSplit sizes = bestSizeSplit(refs(range), area);
+    if (sizes.bin > 0 && sizes.cost() < plane.cost()) {
+      splitBySize(range, sizes, children);
+      return true;
+    }
+  }
+  splitAtPlane(range, map, plane, children);
+  return true;
+}
+
+bool TriTreeBuilder::mayBeLeaf(const BuildRange& range) const {
+  return range.size() <= static_cast<std::uint32_t>(options_.maxLeafTriangles);
+}
+
 bool TriTreeBuilder::worthSplitting(const BuildRange& range, const BinSplit& plane) const {
   const double area = halfArea(range.box);
-  return plane.axis >= 0 && area * options_.traversalCost + plane.cost() < area * range.size();
+  return area * options_.traversalCost + plane.cost() < area * range.size();
 }
 
 void TriTreeBuilder::splitAtPlane(const BuildRange& range, const BinMap& map, const BinSplit& plane,
@@ -170,6 +184,22 @@ void TriTreeBuilder::splitAtPlane(const BuildRange& range, const BinMap& map, co
   const std::uint32_t middle = range.begin + static_cast<std::uint32_t>(sides.first);
   children.range[0] = {range.begin, middle, test.highFirst ? plane.high : plane.low, sides.centroids[0]};
   children.range[1] = {middle, range.end, test.highFirst ? plane.low : plane.high, sides.centroids[1]};
+}
+
+void TriTreeBuilder::splitSorted(const BuildRange& range, const SmallSplit& split, Children& children) const {
+  const bool highFirst = halfArea(split.plane.high) > halfArea(split.plane.low);
+  const std::uint32_t n = range.size(), low = split.plane.lowCount;
+  const std::span<PrimRef> all = refs(range);
+  PrimRef old[kSmallRange];
+  std::copy(all.begin(), all.end(), old);
+  const std::uint32_t middle = range.begin + (highFirst ? n - low : low);
+  children.range[0] = {range.begin, middle, highFirst ? split.plane.high : split.plane.low, {}};
+  children.range[1] = {middle, range.end, highFirst ? split.plane.low : split.plane.high, {}};
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const std::uint32_t to = highFirst ? (k < low ? n - low + k : k - low) : k;
+    all[to] = old[split.order[k]];
+    children.range[range.begin + to < middle ? 0 : 1].centroids.grow(all[to].centroid2());
+  }
 }
 
 void TriTreeBuilder::splitBySize(const BuildRange& range, const SizeSplit& sizes, Children& children) const {

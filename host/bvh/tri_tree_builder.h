@@ -10,6 +10,7 @@
 #include "bvh/bins.h"
 #include "bvh/prim_ref.h"
 #include "bvh/size_split.h"
+#include "bvh/small_split.h"
 #include "bvh/tri_tree.h"
 
 namespace whittle {
@@ -50,9 +51,14 @@ class TriTreeBuilder {
   std::int32_t buildSerial(const Children& children, int depth, Subtree& out) const;
   /// Splits `range`, the triangles of a node at `depth` (root: 1); false if it becomes a leaf.
   bool split(const BuildRange& range, int depth, Children& children) const;
+  /// By area; false if no way is found or none is worth it. Small: at most kSmallRange triangles.
+  bool splitSmall(const BuildRange& range, Children& children) const;
+  bool splitLarge(const BuildRange& range, Children& children) const;
+  bool mayBeLeaf(const BuildRange& range) const;
   bool worthSplitting(const BuildRange& range, const BinSplit& plane) const;
   void splitAtPlane(const BuildRange& range, const BinMap& map, const BinSplit& plane,
                     Children& children) const;
+  void splitSorted(const BuildRange& range, const SmallSplit& split, Children& children) const;
   void splitBySize(const BuildRange& range, const SizeSplit& sizes, Children& children) const;
   void splitAtMedian(const BuildRange& range, Children& children) const;
   std::int32_t makeLeaf(const BuildRange& range) const;

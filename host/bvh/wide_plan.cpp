@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+
+#include "bvh/prim_ref.h"
 
 namespace whittle {
 namespace {
@@ -31,19 +34,26 @@ float edgeScale(const TreeNode& root) {
   return longest > 0 ? std::ldexp(1.0F, std::clamp(1 - std::ilogb(longest), -126, 126)) : 0;
 }
 
-/// Entry i: the least cost of i + 1 children shared between two sides; entry 0 stays infinite.
-void combine(const float (&left)[kLanes], const float (&right)[kLanes], float (&cost)[kLanes]) {
+Float4 load4(const float* p) {
+  Float4 v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+
+/// Entry i: the least cost of i + 1 children shared between two sides; entry 0 is infinite.
+void combine(const float* left, const float* right, float (&cost)[kLanes]) {
   // Infinities in front of the right side: for each number of children on the left one sum of whole vectors.
-  alignas(16) float padded[2 * kLanes];
+  float padded[2 * kLanes];
   std::fill_n(padded, kLanes, kInfinity);
   std::copy_n(right, kLanes, padded + kLanes);
-  std::fill_n(cost, kLanes, kInfinity);
+  Float4 few = splat4(kInfinity), many = few;
   for (std::uint32_t l = 1; l < kLanes; ++l) {
-    for (std::uint32_t i = 0; i < kLanes; ++i) {
-      const float sum = left[l - 1] + padded[kLanes + i - l];
-      cost[i] = sum < cost[i] ? sum : cost[i];
-    }
+    const Float4 onLeft = splat4(left[l - 1]);
+    few = min4(onLeft + load4(padded + kLanes - l), few);
+    many = min4(onLeft + load4(padded + kLanes - l + 4), many);
   }
+  std::memcpy(cost, &few, sizeof few);
+  std::memcpy(cost + 4, &many, sizeof many);
 }
 
 }  // namespace
@@ -81,17 +91,14 @@ SubtreeRef WidePlan::child(std::int32_t n, int side, std::int32_t end) const {
   return s;
 }
 
-void WidePlan::costsOf(std::int32_t n, int side, Costs& costs) const {
+const float* WidePlan::costsOf(std::int32_t n, int side, Costs& leafCosts) const {
   const TreeNode& node = nodes_[n];
   const std::int32_t c = node.child[side];
-  if (c >= 0) {
-    std::copy_n(plans_[static_cast<std::size_t>(c)].cost, kLanes, costs);
-  } else if (isThere(node, side)) {
-    const float blocks = leafCount(c) > kLanes ? 2 : 1;
-    std::fill_n(costs, kLanes, area(node, side) * kLeafCost * blocks);
-  } else {
-    std::fill_n(costs, kLanes, 0.0F);
-  }
+  if (c >= 0) return plans_[static_cast<std::size_t>(c)].cost;
+  float cost = 0;
+  if (isThere(node, side)) cost = area(node, side) * kLeafCost * (leafCount(c) > kLanes ? 2.0F : 1.0F);
+  std::fill_n(leafCosts, kLanes, cost);
+  return leafCosts;
 }
 
 void WidePlan::planNode(std::int32_t n) {
@@ -99,9 +106,7 @@ void WidePlan::planNode(std::int32_t n) {
   Plan& plan = plans_[static_cast<std::size_t>(n)];
   plan.first = std::numeric_limits<std::uint32_t>::max();
   plan.count = 0;
-  Costs sides[2];
   for (int k = 0; k < 2; ++k) {
-    costsOf(n, k, sides[k]);
     if (!isThere(node, k)) continue;
     const SubtreeRef s = child(n, k, 0);
     plan.first = std::min(plan.first, s.first);
@@ -112,7 +117,8 @@ void WidePlan::planNode(std::int32_t n) {
     lo[a] = std::min(node.lo[0][a], node.lo[1][a]);
     hi[a] = std::max(node.hi[0][a], node.hi[1][a]);
   }
-  combine(sides[0], sides[1], plan.cost);
+  Costs leaves[2];
+  combine(costsOf(n, 0, leaves[0]), costsOf(n, 1, leaves[1]), plan.cost);
   // More children never cost more, so the last entry is the least.
   const float whole = plan.count > 0 ? area(lo, hi) : 0;
   const float asNode = whole * kNodeCost + plan.cost[kLanes - 1];
@@ -131,9 +137,9 @@ WideChildren WidePlan::childrenOf(std::int32_t n, std::int32_t end) const {
 /// Adds the children of a node that may have at most `most`, two or more; of equal ways the one of the
 /// fewest.
 void WidePlan::shareOut(std::int32_t n, std::int32_t end, std::uint32_t most, WideChildren& out) const {
-  Costs left, right, cost;
-  costsOf(n, 0, left);
-  costsOf(n, 1, right);
+  Costs leaves[2], cost;
+  const float* left = costsOf(n, 0, leaves[0]);
+  const float* right = costsOf(n, 1, leaves[1]);
   combine(left, right, cost);
   const auto total = static_cast<std::uint32_t>(std::min_element(cost + 1, cost + most) - cost) + 1;
   std::uint32_t toLeft = 1;

@@ -5,9 +5,9 @@
 
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "bvh/tri_tree.h"
+#include "bvh/uninitialized.h"
 
 namespace whittle {
 
@@ -50,14 +50,15 @@ class WidePlan {
 
   /// Entry i: the least cost of the subtree as at most i + 1 children. Never rises.
   struct Plan {
-    alignas(16) Costs cost;
+    Costs cost;
     std::uint32_t first, count;  ///< its run of TriTree::order
     bool endsHere;               ///< as one child it is a leaf, not a node
   };
 
   void planSubtree(std::int32_t n, std::int32_t end);
   void planNode(std::int32_t n);
-  void costsOf(std::int32_t n, int side, Costs& costs) const;
+  /// Those of a child; `leafCosts` is where a leaf's are put.
+  const float* costsOf(std::int32_t n, int side, Costs& leafCosts) const;
   SubtreeRef child(std::int32_t n, int side, std::int32_t end) const;
   void shareOut(std::int32_t n, std::int32_t end, std::uint32_t most, WideChildren& out) const;
   void handOver(const SubtreeRef& s, std::uint32_t most, WideChildren& out) const;
@@ -70,8 +71,8 @@ class WidePlan {
   }
 
   const TreeNode* nodes_;
-  std::vector<Plan> plans_;  ///< by node of the two-wide tree
-  float scale_ = 0;          ///< a power of two: twice the inverse of the tree's longest edge or more
+  UninitializedVector<Plan> plans_;  ///< by node of the two-wide tree
+  float scale_ = 0;                  ///< a power of two: twice the inverse of the tree's longest edge or more
 };
 
 }  // namespace whittle

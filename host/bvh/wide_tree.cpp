@@ -55,7 +55,7 @@ class Collapse {
  private:
   std::unique_ptr<Part> buildPart(const Pending& top) {
     auto part = std::make_unique<Part>();
-    part->nodes.emplace_back();
+    part->nodes.resize(1);
     if (top.end - top.from < kTaskNodes) {
       buildSerial(top, *part);
       return part;
@@ -73,6 +73,7 @@ class Collapse {
   }
 
   void buildSerial(const Pending& top, Part& part) {
+    part.nodes.reserve(static_cast<std::size_t>(top.end - top.from) / 8 + 1);
     std::vector<std::pair<Pending, std::size_t>> pending{{top, 0}};
     while (!pending.empty()) {
       const auto [p, to] = pending.back();

@@ -19,28 +19,36 @@ BinMap::BinMap(const Box4& centroids, int binCount) : origin(centroids.lo), scal
 Bins::Bins(int bins) {
   const Box4 empty;
   for (int i = 0; i < bins; ++i) {
-    for (Box4& b : box[i]) b = empty;
-    count[i] = Int4{};
+    for (auto& onAxis : box) onAxis[i] = empty;
+    count[i].axis = Int4{};
   }
 }
 
 void Bins::add(std::span<const PrimRef> refs, const BinMap& binMap) {
   const BinMap map = binMap;  // a copy: the stores below cannot change it, so it stays in registers
-  for (const PrimRef& ref : refs) {
+  const auto addOne = [&](const PrimRef& ref) {
     const Int4 bin = map(ref);
     for (int axis = 0; axis < 3; ++axis) {
-      Box4& b = box[bin[axis]][axis];
+      const auto at = static_cast<std::uint32_t>(bin[axis]);
+      Box4& b = box[axis][at];
       b.lo = min4(b.lo, ref.lo);
       b.hi = max4(b.hi, ref.hi);
-      ++count[bin[axis]][axis];
+      ++count[at].axis[axis];
     }
+  };
+  // Neighbours fall into the same bins, and each would wait for the one before it: two far apart in turn.
+  const std::size_t half = refs.size() / 2;
+  for (std::size_t i = 0; i < half; ++i) {
+    addOne(refs[i]);
+    addOne(refs[half + i]);
   }
+  if (refs.size() % 2 != 0) addOne(refs.back());
 }
 
 void Bins::merge(const Bins& other, int bins) {
   for (int i = 0; i < bins; ++i) {
-    for (int axis = 0; axis < 3; ++axis) box[i][axis].grow(other.box[i][axis]);
-    count[i] += other.count[i];
+    for (int axis = 0; axis < 3; ++axis) box[axis][i].grow(other.box[axis][i]);
+    count[i].axis += other.count[i].axis;
   }
 }
 
@@ -52,8 +60,8 @@ Float4 toFloat(Int4 v) { return __builtin_convertvector(v, Float4); }
 Box4 boxOf(const Bins& bins, int axis, int from, int to, std::uint32_t& count) {
   Box4 box;
   for (int i = from; i < to; ++i) {
-    box.grow(bins.box[i][axis]);
-    count += static_cast<std::uint32_t>(bins.count[i][axis]);
+    box.grow(bins.box[axis][i]);
+    count += static_cast<std::uint32_t>(bins.count[i].axis[axis]);
   }
   return box;
 }
@@ -66,8 +74,8 @@ BinSplit bestSplit(const Bins& bins, const BinMap& map, const Box4& box) {
   Box4 swept[3];
   Int4 count{};
   for (int i = map.bins - 1; i > 0; --i) {
-    for (int axis = 0; axis < 3; ++axis) swept[axis].grow(bins.box[i][axis]);
-    count += bins.count[i];
+    for (int axis = 0; axis < 3; ++axis) swept[axis].grow(bins.box[axis][i]);
+    count += bins.count[i].axis;
     above[i] = halfAreas(swept, scale) * toFloat(count);
   }
   for (Box4& b : swept) b = Box4{};
@@ -75,8 +83,8 @@ BinSplit bestSplit(const Bins& bins, const BinMap& map, const Box4& box) {
   Float4 best = splat4(std::numeric_limits<float>::infinity());
   Int4 bestBin{};
   for (int i = 1; i < map.bins; ++i) {
-    for (int axis = 0; axis < 3; ++axis) swept[axis].grow(bins.box[i - 1][axis]);
-    count += bins.count[i - 1];
+    for (int axis = 0; axis < 3; ++axis) swept[axis].grow(bins.box[axis][i - 1]);
+    count += bins.count[i - 1].axis;
     // An empty side costs inf · 0: a NaN, which is not less than anything.
     const Float4 cost = halfAreas(swept, scale) * toFloat(count) + above[i];
     const Int4 less = cost < best;

@@ -32,8 +32,12 @@ struct BinMap {
 
 /// Boxes and counts of the triangles of each bin and axis.
 struct Bins {
-  Box4 box[kMaxBins][3];
-  Int4 count[kMaxBins];  ///< lane: axis
+  /// As long as a box, so that one offset from the start of an array finds a bin in any of them.
+  struct Count {
+    alignas(sizeof(Box4)) Int4 axis;  ///< lane: axis
+  };
+  Box4 box[3][kMaxBins];  ///< by axis
+  Count count[kMaxBins];
 
   explicit Bins(int bins);  ///< empties the first `bins`
   void add(std::span<const PrimRef> refs, const BinMap& map);

@@ -66,6 +66,14 @@ Bins binRange(std::span<const PrimRef> refs, const BinMap& map) {
   return bins;
 }
 
+BinSplit halvesOfTwo(std::span<const PrimRef> refs) {
+  BinSplit split;
+  split.lowCount = split.highCount = 1;
+  split.low = {refs[0].lo, refs[0].hi};
+  split.high = {refs[1].lo, refs[1].hi};
+  return split;
+}
+
 }  // namespace
 
 TriTreeBuilder::TriTreeBuilder(std::span<PrimRef> refs, std::span<std::uint32_t> order,
@@ -90,7 +98,9 @@ std::unique_ptr<Subtree> TriTreeBuilder::build(const BuildRange& all) const {
 
 std::unique_ptr<Subtree> TriTreeBuilder::buildParallel(const Children& children, int depth) const {
   auto tree = std::make_unique<Subtree>();
-  if (children.range[0].size() + children.range[1].size() < kParallelTask) {
+  const std::uint32_t size = children.range[0].size() + children.range[1].size();
+  if (size < kParallelTask) {
+    tree->nodes.reserve(size / 2);
     buildSerial(children, depth, *tree);
     return tree;
   }
@@ -140,6 +150,8 @@ bool TriTreeBuilder::split(const BuildRange& range, int depth, Children& childre
 }
 
 bool TriTreeBuilder::splitSmall(const BuildRange& range, Children& children) const {
+  // Most calls end here: two triangles can be split in one way only.
+  if (range.size() == 2 && mayBeLeaf(range) && !worthSplitting(range, halvesOfTwo(refs(range)))) return false;
   const SmallSplit split = bestSmallSplit(refs(range), range.box, range.centroids);
   if (split.plane.axis < 0) return false;
   if (mayBeLeaf(range) && !worthSplitting(range, split.plane)) return false;

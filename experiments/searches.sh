@@ -1,13 +1,20 @@
 #!/bin/sh
-# Rates of every search beside Embree's, for a mixed scene, a height field and the scenes given; text to standard output.
-# usage: experiments/searches.sh [SCENE.glb ...]     needs a Release build in build/release, with make_scenes
+# Rates of every search beside Embree's: height fields of 0.5 and 8 million triangles, terrain with mirror balls, tiny and
+# huge triangles together, a Cornell box, and the scenes given; text to standard output.
+# usage: experiments/searches.sh [SCENE.glb ...]
+# Needs a Release build with make_scenes in build/release, or BUILD set to another one.
 set -eu
 root=$(dirname -- "$(readlink -f -- "$0")")/..
+build=${BUILD:-$root/build/release}
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
-"$root/build/release/make_scenes" - --frame "$work/frame.glb" >&2
-for scene in "$work/frame.glb" "$root/scenes/cornell_box.glb" "$@"; do
+"$build/make_scenes" - --heightfield 512 "$work/hills_0.5M.glb" >&2
+"$build/make_scenes" - --heightfield 2048 "$work/hills_8M.glb" >&2
+"$build/make_scenes" - --frame "$work/frame.glb" >&2
+"$build/make_scenes" - --mixed "$work/mixed.glb" >&2
+for scene in "$work/hills_0.5M.glb" "$work/hills_8M.glb" "$work/frame.glb" "$work/mixed.glb" \
+  "$root/scenes/cornell_box.glb" "$@"; do
   printf '## %s\n\n' "$(basename -- "$scene" .glb)"
-  "$root/build/release/whittle" bench "$scene" --all-kernels --quiet
+  "$build/whittle" bench "$scene" --all-kernels --quiet
   printf '\n'
 done

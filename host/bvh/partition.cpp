@@ -10,6 +10,23 @@
 
 namespace whittle {
 
+namespace {
+
+Box4 centroidBounds(std::span<const PrimRef> refs) {
+  // Two boxes in turn: a minimum waits for the one before it.
+  Box4 even, odd;
+  std::size_t i = 0;
+  for (; i + 1 < refs.size(); i += 2) {
+    even.grow(refs[i].centroid2());
+    odd.grow(refs[i + 1].centroid2());
+  }
+  if (i < refs.size()) even.grow(refs[i].centroid2());
+  even.grow(odd);
+  return even;
+}
+
+}  // namespace
+
 template <typename Test>
 Partition partition(std::span<PrimRef> refs, const Test& sideTest) {
   const Test test = sideTest;  // a copy: the stores below cannot change it, so it stays in registers
@@ -24,8 +41,8 @@ Partition partition(std::span<PrimRef> refs, const Test& sideTest) {
   }
   Partition result;
   result.first = end;
-  for (const PrimRef& ref : refs.first(end)) result.centroids[0].grow(ref.centroid2());
-  for (const PrimRef& ref : refs.subspan(end)) result.centroids[1].grow(ref.centroid2());
+  result.centroids[0] = centroidBounds(refs.first(end));
+  result.centroids[1] = centroidBounds(refs.subspan(end));
   return result;
 }
 

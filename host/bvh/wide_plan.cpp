@@ -40,14 +40,16 @@ Float4 load4(const float* p) {
   return v;
 }
 
-/// Entry i: the least cost of i + 1 children shared between two sides; entry 0 is infinite.
-void combine(const float* left, const float* right, float (&cost)[kLanes]) {
+/// Entry i: the least cost of i + 1 children shared between two sides; entry 0 is infinite. At most
+/// `mostLeft` of them are on the left: a leaf costs the same as more than one child.
+void combine(const float* left, const float* right, float (&cost)[kLanes],
+             std::uint32_t mostLeft = kLanes - 1) {
   // Infinities in front of the right side: for each number of children on the left one sum of whole vectors.
   float padded[2 * kLanes];
   std::fill_n(padded, kLanes, kInfinity);
   std::copy_n(right, kLanes, padded + kLanes);
   Float4 few = splat4(kInfinity), many = few;
-  for (std::uint32_t l = 1; l < kLanes; ++l) {
+  for (std::uint32_t l = 1; l <= mostLeft; ++l) {
     const Float4 onLeft = splat4(left[l - 1]);
     few = min4(onLeft + load4(padded + kLanes - l), few);
     many = min4(onLeft + load4(padded + kLanes - l + 4), many);
@@ -117,8 +119,10 @@ void WidePlan::planNode(std::int32_t n) {
     lo[a] = std::min(node.lo[0][a], node.lo[1][a]);
     hi[a] = std::max(node.hi[0][a], node.hi[1][a]);
   }
+  const int leaf = node.child[0] < 0 ? 0 : 1;
   Costs leaves[2];
-  combine(costsOf(n, 0, leaves[0]), costsOf(n, 1, leaves[1]), plan.cost);
+  combine(costsOf(n, leaf, leaves[0]), costsOf(n, 1 - leaf, leaves[1]), plan.cost,
+          node.child[leaf] < 0 ? 1 : kLanes - 1);
   // More children never cost more, so the last entry is the least.
   const float whole = plan.count > 0 ? area(lo, hi) : 0;
   const float asNode = whole * kNodeCost + plan.cost[kLanes - 1];

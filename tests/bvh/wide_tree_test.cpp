@@ -3,6 +3,9 @@
 #include "bvh/wide_tree.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <string_view>
 
 #include "support/random_scenes.h"
 
@@ -74,7 +77,7 @@ void expectWhole(const test::TriangleMesh& mesh, const std::string& name, const 
 }
 
 TEST(WideTree, HoldsEveryTriangleOnce) {
-  for (const std::size_t count : {0U, 1U, 2U, 7U, 8U, 9U, 63U, 1000U, 20000U})
+  for (const std::size_t count : {0U, 1U, 2U, 7U, 8U, 9U, 63U, 1000U, 20000U, 50000U})
     expectWhole(test::randomSoup(count, 0.1F, 41 + count), std::to_string(count));
 }
 
@@ -85,6 +88,31 @@ TEST(WideTree, LongLeavesAreSplit) {
   sixteen.maxLeafTriangles = 16;
   expectWhole(alike, "a thousand alike", sixteen);
   expectWhole(test::randomSoup(500, 5.0F, 7), "overlapping", sixteen);
+}
+
+/// Areas of the largest overflow a float, those of the smallest vanish.
+TEST(WideTree, ExtremeScales) {
+  for (const float scale : {1e18F, 3e38F, 1e-18F, 1e-30F, 1e-37F, 1e-44F}) {
+    test::TriangleMesh mesh = test::randomSoup(3000, 0.1F, 8);
+    for (glm::vec3& p : mesh.positions) p = glm::clamp(p, -1.0F, 1.0F) * scale;
+    expectWhole(mesh, std::to_string(scale));
+  }
+}
+
+TEST(WideTree, SameForAnyNumberOfThreadsAndEveryRun) {
+  // Large enough for many tasks.
+  const auto mesh = test::randomSoup(100000, 0.01F, 11);
+  const TriTree tree = buildTriTree(mesh.positions, mesh.triangles);
+  const auto bytes = [](const auto& v) {
+    return std::string_view(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(v[0]));
+  };
+  const WideTree first = buildWideTree(tree, mesh.positions, mesh.triangles);
+  for (const std::size_t threads : {1U, 2U, 3U}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const WideTree again = buildWideTree(tree, mesh.positions, mesh.triangles);
+    EXPECT_TRUE(bytes(first.nodes) == bytes(again.nodes)) << threads;
+    EXPECT_TRUE(bytes(first.corners) == bytes(again.corners)) << threads;
+  }
 }
 
 /// Half-empty nodes are what the collapse is there to avoid: opening the child of the largest box until there

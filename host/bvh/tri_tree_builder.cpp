@@ -198,6 +198,7 @@ void TriTreeBuilder::splitAtPlane(const BuildRange& range, const BinMap& map, co
   children.range[1] = {middle, range.end, test.highFirst ? plane.low : plane.high, sides.centroids[1]};
 }
 
+/// The sorted triangles, or their upper part first; either part stays sorted.
 void TriTreeBuilder::splitSorted(const BuildRange& range, const SmallSplit& split, Children& children) const {
   const bool highFirst = halfArea(split.plane.high) > halfArea(split.plane.low);
   const std::uint32_t n = range.size(), low = split.plane.lowCount;

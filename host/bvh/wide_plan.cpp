@@ -13,7 +13,6 @@ namespace whittle {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::int32_t kTaskNodes = 4096;  // nodes of a subtree that is worth a task
 
 /// What visiting a node and testing a leaf cost, in visits; measured on one core with 8-lane vectors.
 constexpr float kNodeCost = 1.0F, kLeafCost = 1.5F;
@@ -66,16 +65,21 @@ WidePlan::WidePlan(const TriTree& tree)
 }
 
 void WidePlan::planSubtree(std::int32_t n, std::int32_t end) {
-  if (end - n < kTaskNodes) {
+  if (end - n < kWideTask) {
     for (std::int32_t i = end; i-- > n;) planNode(i);
     return;
   }
   const auto side = [&](int k) {
-    const SubtreeRef s = child(n, k, end);
-    if (!s.isLeaf()) planSubtree(s.child, s.end);
+    const std::int32_t c = nodes_[n].child[k];
+    if (c >= 0) planSubtree(c, endOf(n, k, end));
   };
   tbb::parallel_invoke([&] { side(0); }, [&] { side(1); });
   planNode(n);
+}
+
+/// Depth-first: one side's nodes end where the other's begin.
+std::int32_t WidePlan::endOf(std::int32_t n, int side, std::int32_t end) const {
+  return side == 0 && nodes_[n].child[1] >= 0 ? nodes_[n].child[1] : end;
 }
 
 SubtreeRef WidePlan::child(std::int32_t n, int side, std::int32_t end) const {
@@ -86,8 +90,7 @@ SubtreeRef WidePlan::child(std::int32_t n, int side, std::int32_t end) const {
     s.count = leafCount(s.child);
     return s;
   }
-  // Depth-first: the other side's nodes begin where this one's end.
-  if (side == 0 && node.child[1] >= 0) s.end = node.child[1];
+  s.end = endOf(n, side, end);
   s.first = plans_[static_cast<std::size_t>(s.child)].first;
   s.count = plans_[static_cast<std::size_t>(s.child)].count;
   return s;

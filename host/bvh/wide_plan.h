@@ -12,6 +12,7 @@
 namespace whittle {
 
 inline constexpr std::uint32_t kLanes = 8;
+inline constexpr std::int32_t kWideTask = 4096;  ///< two-wide nodes of a subtree that is worth a task
 
 /// A subtree of the two-wide tree: child `side` of node `parent`.
 struct SubtreeRef {
@@ -59,6 +60,7 @@ class WidePlan {
   void planNode(std::int32_t n);
   /// Those of a child; `leafCosts` is where a leaf's are put.
   const float* costsOf(std::int32_t n, int side, Costs& leafCosts) const;
+  std::int32_t endOf(std::int32_t n, int side, std::int32_t end) const;
   SubtreeRef child(std::int32_t n, int side, std::int32_t end) const;
   void shareOut(std::int32_t n, std::int32_t end, std::uint32_t most, WideChildren& out) const;
   void handOver(const SubtreeRef& s, std::uint32_t most, WideChildren& out) const;

@@ -15,7 +15,6 @@ namespace whittle {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::int32_t kTaskNodes = 4096;  // two-wide nodes of a subtree that is worth a task
 
 /// A part of the tree that one task made. Node indices in it count from its own first node.
 struct Part {
@@ -56,7 +55,7 @@ class Collapse {
   std::unique_ptr<Part> buildPart(const Pending& top) {
     auto part = std::make_unique<Part>();
     part->nodes.resize(1);
-    if (top.end - top.from < kTaskNodes) {
+    if (top.end - top.from < kWideTask) {
       buildSerial(top, *part);
       return part;
     }

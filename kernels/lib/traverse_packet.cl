@@ -62,6 +62,24 @@ INLINE float16 wakeFinite(const Packet* p, float16 tMax) {
   return select((float16)(-1.0f), tMax, finite);
 }
 
+/// clampToBox for the rays of a packet.
+float16 clampToBox16(const Packet* p, __global const float* triangle, uint stride, float16 t) {
+  float16 far[3];
+  for (uint a = 0; a < 3; ++a) {
+    const float v0 = triangle[a * stride], v1 = triangle[(3 + a) * stride], v2 = triangle[(6 + a) * stride];
+    float lo = v0 < v1 ? v0 : v1, hi = v0 < v1 ? v1 : v0;
+    lo = v2 < lo ? v2 : lo;
+    hi = v2 > hi ? v2 : hi;
+    const float16 first = (lo - p->o[a]) * p->inverse[a], second = (hi - p->o[a]) * p->inverse[a];
+    const int16 down = as_int16(p->inverse[a]);  // select reads the sign bit
+    const float16 near = select(first, second, down);
+    far[a] = select(second, first, down);
+    t = near > t ? near : t;
+  }
+  for (int a = 0; a < 3; ++a) t = far[a] < t ? far[a] : t;
+  return t;
+}
+
 /// Lanes whose largest axis is kz and that meet a triangle at 0 < t <= tMax. Its coordinates: corner k, axis a at
 /// triangle[(3 k + a) stride].
 INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint stride, int kz, float16 tMax, float16* t,
@@ -87,6 +105,9 @@ INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint
   if (!anyOf16(inside)) return inside;
   const float16 det = u + v + w;
   *t = fma(u, az, fma(v, bz, w * cz)) * p->shear[2] / det;
+  const float16 ab = fabs(az) > fabs(bz) ? fabs(az) : fabs(bz), corners = ab > fabs(cz) ? ab : fabs(cz);
+  const int16 far = corners * fabs(p->shear[2]) > FAR_CORNERS * fabs(*t);
+  if (anyOf16(inside & far)) *t = select(*t, clampToBox16(p, triangle, stride, *t), far);
   *areaV = v, *areaW = w, *area = det;
   return inside & (*t > 0.0f) & (*t <= tMax);
 }

@@ -124,6 +124,23 @@ INLINE int8 wideEntries(const WideRay* r, __global const float* node, float tMax
   return enter <= leave * FAR_WIDENING;
 }
 
+/// clampToBox for the triangles of a leaf.
+float8 clampToBoxes(const WideRay* r, const Leaf* leaf, float8 t) {
+  float8 far[3];
+  for (int a = 0; a < 3; ++a) {
+    const float8 v0 = leafPlane(leaf, 0, a), v1 = leafPlane(leaf, 1, a), v2 = leafPlane(leaf, 2, a);
+    float8 lo = v0 < v1 ? v0 : v1, hi = v0 < v1 ? v1 : v0;
+    lo = v2 < lo ? v2 : lo;
+    hi = v2 > hi ? v2 : hi;
+    const int down = !(r->inverse[a] >= 0.0f);
+    const float8 near = ((down ? hi : lo) - r->o[a]) * r->inverse[a];
+    far[a] = ((down ? lo : hi) - r->o[a]) * r->inverse[a];
+    t = near > t ? near : t;
+  }
+  for (int a = 0; a < 3; ++a) t = far[a] < t ? far[a] : t;
+  return t;
+}
+
 /// The triangles of a leaf: bits of those met at 0 < t <= tMax; t of all lanes, and the areas whose ratios v/det and w/det
 /// are the barycentrics b1 and b2.
 INLINE uint intersectLeaf(const WideRay* r, const Leaf* leaf, float tMax, float8* t, float8* areaV, float8* areaW,
@@ -147,6 +164,9 @@ INLINE uint intersectLeaf(const WideRay* r, const Leaf* leaf, float tMax, float8
   if (lanes == 0) return 0;
   const float8 det = u + v + w;
   *t = fma(u, az, fma(v, bz, w * cz)) * r->sz / det;
+  const float8 ab = fabs(az) > fabs(bz) ? fabs(az) : fabs(bz), corners = ab > fabs(cz) ? ab : fabs(cz);
+  const int8 far = corners * fabs(r->sz) > FAR_CORNERS * fabs(*t);
+  if (lanes & laneBits(far)) *t = select(*t, clampToBoxes(r, leaf, *t), far);
   *areaV = v, *areaW = w, *area = det;
   return lanes & laneBits((*t > 0.0f) & (*t <= tMax));
 }

@@ -38,6 +38,35 @@ Ray makeRay(float3 o, float3 d) {
   return r;
 }
 
+INLINE float largestOfThree(float a, float b, float c) {
+  const float ab = a > b ? a : b;
+  return ab > c ? ab : c;
+}
+
+/// Corners farther along the ray's largest axis than this many times the hit make t imprecise: their rounding is not the
+/// hit's. Below it t is off by less than FAR_WIDENING takes care of.
+#define FAR_CORNERS 1.5f
+
+/// t kept between the distances at which the ray enters and leaves the triangle's own box; for triangles with far corners.
+/// Else t could lie before the box, and which of two triangles is nearer would depend on the order in which boxes are culled;
+/// of a triangle across an axis, a floor, t becomes exact. NaN stays NaN. First all near planes, then all far ones, so that
+/// the order of the axes does not matter.
+INLINE float clampToBox(const Ray* r, __global const DeviceTriangle* triangle, float t) {
+  float far[3];
+  for (int a = 0; a < 3; ++a) {
+    const float v0 = triangle->v[0][a], v1 = triangle->v[1][a], v2 = triangle->v[2][a];
+    float lo = v0 < v1 ? v0 : v1, hi = v0 < v1 ? v1 : v0;
+    lo = v2 < lo ? v2 : lo;
+    hi = v2 > hi ? v2 : hi;
+    const int down = !(r->inverse[a] >= 0.0f);
+    const float near = ((down ? hi : lo) - r->o[a]) * r->inverse[a];
+    far[a] = ((down ? lo : hi) - r->o[a]) * r->inverse[a];
+    t = near > t ? near : t;
+  }
+  for (int a = 0; a < 3; ++a) t = far[a] < t ? far[a] : t;
+  return t;
+}
+
 /// True if the ray meets the triangle at 0 < t <= tMax; `hit` then holds distance and barycentrics. The host turns a
 /// triangle without area into a point (det 0, t not a number): rounding could open it in the plane across the ray.
 INLINE int intersectTriangle(const Ray* r, __global const DeviceTriangle* triangle, float tMax, Candidate* hit) {
@@ -56,7 +85,8 @@ INLINE int intersectTriangle(const Ray* r, __global const DeviceTriangle* triang
   const int inside = (u >= 0.0f && v >= 0.0f && w >= 0.0f) || (u <= 0.0f && v <= 0.0f && w <= 0.0f);
   if (!inside) return 0;
   const float det = u + v + w;
-  const float t = fma(u, az, fma(v, bz, w * cz)) * r->sz / det;
+  float t = fma(u, az, fma(v, bz, w * cz)) * r->sz / det;
+  if (largestOfThree(fabs(az), fabs(bz), fabs(cz)) * fabs(r->sz) > FAR_CORNERS * fabs(t)) t = clampToBox(r, triangle, t);
   if (!(t > 0.0f && t <= tMax)) return 0;
   hit->t = t;
   hit->b1 = v / det;

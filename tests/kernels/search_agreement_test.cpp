@@ -98,6 +98,37 @@ TEST(SearchAgreement, RandomScenes) {
   }
 }
 
+/// Gravel of millimetres on a plain a hundred kilometres wide. The plain's corners round to as much as the
+/// gravel is high: its t alone may lie before its box, and which is nearer would depend on whether the box is
+/// culled.
+TEST(SearchAgreement, GravelOnAPlain) {
+  SearchLab lab;
+  test::Rng rng(91);
+  test::TriangleMesh mesh;
+  mesh.add({-1.1e5F, 0, -1.3e5F}, {1.2e5F, 0, -0.9e5F}, {0.1e5F, 0, 1.3e5F});
+  for (int k = 0; k < 15000; ++k) {
+    const glm::vec3 at = rng.inBox(3) * glm::vec3(1, 0.001F, 1), flat(1, 0.05F, 1);
+    mesh.add(at, at + rng.inBox(0.06F) * flat, at + rng.inBox(0.06F) * flat);
+  }
+  std::vector<TestRay> rays;
+  for (int k = 0; k < 4003; ++k) {
+    const glm::vec3 eye(0.1F, 1.7F, -4.0F), at = rng.inBox(3) * glm::vec3(1, 0, 1);
+    rays.push_back({eye, glm::normalize(at - eye)});
+  }
+  const Scene scene = test::sceneOf(mesh);
+  const auto hits = agreedHits(lab, scene, rays);
+  std::size_t gravel = 0;
+  double worst = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    gravel += hits[i].primitive > 0;
+    if (hits[i].primitive == 0)
+      worst = std::max(worst, std::abs(double{rays[i].o.y} / -double{rays[i].d.y} / double{hits[i].t} - 1));
+  }
+  EXPECT_GT(gravel, rays.size() / 10);
+  EXPECT_LT(gravel, rays.size());
+  EXPECT_LT(worst, 3 * 0x1p-24) << "t of a plain across an axis: a difference, a reciprocal and a product";
+}
+
 TEST(SearchAgreement, FewTrianglesAndFewRays) {
   SearchLab lab;
   test::TriangleMesh one;

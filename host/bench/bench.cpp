@@ -119,21 +119,18 @@ class Bench {
     return out->buildSeconds();
   }
 
-  /// Kernels that take part for rays of this kind, the renderer's choice first.
-  std::vector<QueryRunner*> contenders(const std::string& kind) {
+  /// Kernels that take part, the renderer's choice first.
+  std::vector<QueryRunner*> contenders() {
     std::vector<QueryRunner*> chosen;
     for (auto& k : kernels_)
-      if (k->kernel().name == std::string(kernelFor(kind).name)) chosen.push_back(k.get());
-    if (options_.allKernels)
-      for (auto& k : kernels_)
-        if (k.get() != chosen.front()) chosen.push_back(k.get());
+      if (chosen.empty() || options_.allKernels) chosen.push_back(k.get());
     return chosen;
   }
 
   /// Both queries of one kind of ray by all contenders; returns what the renderer's kernel hits.
   std::vector<QueryHit> measure(const RaySet& rays) {
     if (rays.size() == 0) return {};
-    const auto chosen = contenders(rays.kind);
+    const auto chosen = contenders();
     say(rays.kind + " rays");
     for (QueryRunner* k : chosen) k->load(rays);
     for (EmbreeYardstick* e : {fast_.get(), robust_.get()})

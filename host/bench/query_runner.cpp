@@ -43,8 +43,6 @@ const std::vector<QueryKernel>& queryKernels() {
   return kernels;
 }
 
-const QueryKernel& kernelFor(const std::string&) { return queryKernels().front(); }
-
 QueryRunner::QueryRunner(Compute& compute, const Scene& scene, const TriTree& tree, const QueryKernel& kernel,
                          const std::optional<std::filesystem::path>& kernelFolder)
     : compute_(compute), tree_(tree), kernel_(kernel) {

@@ -18,10 +18,8 @@ struct QueryKernel {
   int raysEach;            ///< rays of one work item
 };
 
-/// Every kernel there is, the renderer's choice for coherent rays first.
+/// Every kernel there is; first the one that the renderer uses on a CPU, for rays of any kind.
 const std::vector<QueryKernel>& queryKernels();
-/// The kernel that the renderer would use on a CPU for rays of this kind.
-const QueryKernel& kernelFor(const std::string& kind);
 
 /// One kernel, compiled, with its scene on the device. Opaque triangles only: neither textures nor masks take
 /// part.

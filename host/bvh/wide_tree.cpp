@@ -21,13 +21,12 @@ struct Part {
   std::vector<WideNode> nodes;          ///< never empty
   std::unique_ptr<Part> parts[kLanes];  ///< where set, that child of nodes[0]
   std::size_t leaves = 0;
-  int stack = 0, depth = 0;  ///< as WideTree's, counted from the root of the tree
+  int depth = 0;  ///< as WideTree's, counted from the root of the tree
 };
 
 /// A node to be made.
 struct Pending {
   std::int32_t from, end;  ///< the subtree of the two-wide tree
-  int waiting;             ///< entries on a search's stack on the way here
   int depth;               ///< nodes on the way here, this one among them
   std::uint32_t lane;      ///< in its parent
 };
@@ -46,9 +45,7 @@ class Collapse {
     std::fill_n(corners_.end() - kLanes, kLanes, 0.0F);
   }
 
-  std::unique_ptr<Part> run() {
-    return buildPart({0, static_cast<std::int32_t>(tree_.nodes.size()), 0, 1, 0});
-  }
+  std::unique_ptr<Part> run() { return buildPart({0, static_cast<std::int32_t>(tree_.nodes.size()), 1, 0}); }
   UninitializedVector<float> takeCorners() { return std::move(corners_); }
 
  private:
@@ -64,7 +61,6 @@ class Collapse {
                       [&](std::uint32_t i) { part->parts[inner.child[i].lane] = buildPart(inner.child[i]); });
     for (const auto& below : part->parts) {
       if (!below) continue;
-      part->stack = std::max(part->stack, below->stack);
       part->depth = std::max(part->depth, below->depth);
       part->leaves += below->leaves;
     }
@@ -91,8 +87,6 @@ class Collapse {
     WideChildren children = plan_.childrenOf(p.from, p.end);
     splitLongLeaves(children);
     sortByArea(children);
-    const int waiting = p.waiting + static_cast<int>(children.count) - 1;
-    part.stack = std::max(part.stack, waiting);
     part.depth = std::max(part.depth, p.depth);
     InnerChildren inner;
     for (std::uint32_t k = 0; k < kLanes; ++k) {
@@ -103,19 +97,19 @@ class Collapse {
       const SubtreeRef& s = children.child[k];
       setBox(part.nodes[to], k, &s);
       if (!plan_.becomesLeaf(s)) {
-        inner.child[inner.count++] = {s.child, s.end, waiting, p.depth + 1, k};
+        inner.child[inner.count++] = {s.child, s.end, p.depth + 1, k};
       } else if (s.count <= kLanes) {
         part.nodes[to].child[k] = addLeaf(s.first, s.count, part);
       } else {
-        const std::int32_t own = addNodeOfTwoLeaves(s, waiting, p.depth + 1, part);
+        const std::int32_t own = addNodeOfTwoLeaves(s, p.depth + 1, part);
         part.nodes[to].child[k] = own;
       }
     }
     return inner;
   }
 
-  /// A leaf of more than a block becomes two children of the same box where there is room, else a node of its
-  /// own.
+  /// A leaf of more than eight triangles becomes two children of the same box where there is room, else a
+  /// node of its own.
   static void splitLongLeaves(WideChildren& children) {
     for (std::uint32_t i = 0; i < children.count; ++i) {
       SubtreeRef& s = children.child[i];
@@ -156,12 +150,11 @@ class Collapse {
     }
   }
 
-  std::int32_t addNodeOfTwoLeaves(const SubtreeRef& s, int waiting, int depth, Part& part) {
+  std::int32_t addNodeOfTwoLeaves(const SubtreeRef& s, int depth, Part& part) {
     WideNode node{};
     for (std::uint32_t k = 0; k < kLanes; ++k) setBox(node, k, k < 2 ? &s : nullptr);
     node.child[0] = addLeaf(s.first, kLanes, part);
     node.child[1] = addLeaf(s.first + kLanes, s.count - kLanes, part);
-    part.stack = std::max(part.stack, waiting + 1);
     part.depth = std::max(part.depth, depth);
     part.nodes.push_back(node);
     return static_cast<std::int32_t>(part.nodes.size() - 1);
@@ -232,7 +225,6 @@ WideTree buildWideTree(const TriTree& tree, std::span<const glm::vec3> positions
   wide.corners = collapse.takeCorners();
   wide.nodes = join(*top);
   wide.leaves = top->leaves;
-  wide.stack = top->stack;
   wide.depth = top->depth;
   return wide;
 }

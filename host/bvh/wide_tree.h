@@ -29,7 +29,6 @@ struct WideTree {
   /// that a lane beyond the last leaf's count may be read.
   UninitializedVector<float> corners;
   std::size_t leaves = 0;
-  int stack = 0;  ///< entries that a search may have waiting: the most children left over on any way down
   int depth = 0;  ///< nodes on the longest way down
 };
 

@@ -108,23 +108,28 @@ bool hasArea(const glm::vec3& p0, const glm::vec3& p1, const glm::vec3& p2) {
   return a.y * b.z != a.z * b.y || a.z * b.x != a.x * b.z || a.x * b.y != a.y * b.x;
 }
 
+/// Corners of every triangle. Rounding could open a triangle without area in the plane across a ray: as a
+/// point nothing hits it.
+std::vector<glm::uvec3> hittableCorners(const Scene& scene) {
+  std::vector<glm::uvec3> corners;
+  corners.reserve(scene.triangles.size());
+  for (const Triangle& t : scene.triangles)
+    corners.push_back(hasArea(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2])
+                          ? glm::uvec3(t.v0, t.v1, t.v2)
+                          : glm::uvec3(t.v0));
+  return corners;
+}
+
 /// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
-std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene,
+std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene, const std::vector<glm::uvec3>& corners,
                                                   const std::vector<std::uint32_t>& order) {
   std::vector<device::DeviceTriangle> out(order.size() + 1);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const Triangle& t = scene.triangles[order[i]];
-    copy3(out[i].v[0], scene.positions[t.v0]);
-    copy3(out[i].v[1], scene.positions[t.v1]);
-    copy3(out[i].v[2], scene.positions[t.v2]);
-    // Rounding could open a triangle without area in the plane across a ray: as a point nothing hits it.
-    if (!hasArea(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2])) {
-      copy3(out[i].v[1], scene.positions[t.v0]);
-      copy3(out[i].v[2], scene.positions[t.v0]);
-    }
+    const std::uint32_t material = scene.triangles[order[i]].material;
+    for (int k = 0; k < 3; ++k) copy3(out[i].v[k], scene.positions[corners[order[i]][k]]);
     out[i].primitive = order[i];
-    out[i].material = t.material;
-    out[i].flags = triangleFlags(scene.materials[t.material]);
+    out[i].material = material;
+    out[i].flags = triangleFlags(scene.materials[material]);
   }
   out.back().primitive = 0xffffffffU;
   return out;
@@ -188,23 +193,18 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tre
                         const SceneFeatures& features) {
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
+  const std::vector<glm::uvec3> hittable = hittableCorners(scene);
   if (features.has(Feature::TREE) && !features.has(Feature::PACKETS))
     d.nodes = compute.upload("nodes", withSentinels(tree));
   if (features.has(Feature::TREE) && features.has(Feature::PACKETS)) {
-    std::vector<glm::uvec3> triangles;
-    for (const auto& t : scene.triangles) {
-      triangles.emplace_back(t.v0, t.v1, t.v2);
-      if (!hasArea(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]))
-        triangles.back() = glm::uvec3(t.v0);
-    }
-    const WideTree wide = buildWideTree(tree, scene.positions, triangles);
+    const WideTree wide = buildWideTree(tree, scene.positions, hittable);
     if (wide.depth > WIDE_DEPTH)
       throw ClError(fmt::format("the eight-wide tree is {} nodes deep, the kernels have room for {}",
                                 wide.depth, WIDE_DEPTH));
     d.wideNodes = compute.upload("wideNodes", wide.nodes);
     d.leaves = compute.upload("leaves", wide.corners);
   }
-  d.triangles = compute.upload("triangles", leafTriangles(scene, tree.order));
+  d.triangles = compute.upload("triangles", leafTriangles(scene, hittable, tree.order));
   std::vector<std::uint32_t> corners;
   corners.reserve(tree.order.size() * 3 + 3);
   for (const std::uint32_t i : tree.order) {

@@ -177,7 +177,7 @@ bool Wavefront::hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint3
 }
 
 std::uint32_t Wavefront::laneItems(std::uint32_t entries) const {
-  return setup_.features.has(Feature::PACKETS) ? (entries + 7) / 8 : entries;
+  return setup_.features.has(Feature::PACKETS) ? (entries + ENTRY_LANES - 1) / ENTRY_LANES : entries;
 }
 
 std::uint32_t Wavefront::searchItems(std::uint32_t rays) const {

@@ -4,7 +4,7 @@
 #include "lib/math.cl"
 
 #if HAS(PACKETS)
-#define LANES 8
+#define LANES ENTRY_LANES
 typedef float8 Real;
 typedef int8 Mask;
 typedef uint8 Natural;
@@ -20,11 +20,7 @@ typedef uint8 Natural;
 INLINE Real gather(__global const float* p, Natural at) {
   return (float8)(p[at.s0], p[at.s1], p[at.s2], p[at.s3], p[at.s4], p[at.s5], p[at.s6], p[at.s7]);
 }
-INLINE int some(Mask mask) {
-  const int4 four = mask.lo | mask.hi;
-  const int2 two = four.lo | four.hi;
-  return (two.x | two.y) != 0;
-}
+INLINE int some(Mask mask) { return anyOf8(mask); }
 #else
 #define LANES 1
 typedef float Real;

@@ -34,6 +34,12 @@ INLINE float childEntry(const Ray* r, __global const Node* node, int c, float tM
   return entry <= leave * FAR_WIDENING ? entry : INFINITY;
 }
 
+/// Ties: true if triangle a has a lower index in the scene than b (both in leaf order), or b is none. Looked up only then:
+/// it is one more line of memory.
+INLINE int comesFirst(const SceneView* scene, uint a, uint b) {
+  return b == NO_HIT || scene->triangles[a].primitive < scene->triangles[b].primitive;
+}
+
 /// Keeps the candidate in `best` if it is nearer, or as near with a lower index.
 INLINE void testNearest(const SceneView* scene, const Ray* r, uint index, Hit* best) {
   __global const DeviceTriangle* triangle = scene->triangles + index;
@@ -86,7 +92,9 @@ INLINE float3 transmittanceFromStops(const uint* stops) {
 #endif
 }
 
-#if HAS(TREE)
+#if HAS(PACKETS)
+// Packets search, and walk their own rays one by one.
+#elif HAS(TREE)
 Hit nearestSingle(const SceneView* scene, const Ray* r) {
   Hit best = {MAXFLOAT, NO_HIT, NO_HIT, 0.0f, 0.0f};
   if (!isFiniteRay(r)) return best;

@@ -1,59 +1,9 @@
 // Searches for one ray at a time through the eight-wide tree: one ray against eight boxes, or eight triangles, in the
 // lanes of a float8. For rays that share no way, where a packet would drag the others along. The arithmetic of a lane is
 // that of the other searches, so the answers are the same bits.
-#include "lib/traverse_single.cl"
-
-/// Ties: true if triangle a has a lower index in the scene than b (both in leaf order), or b is none. Looked up only then:
-/// it is one more line of memory.
-INLINE int comesFirst(const SceneView* scene, uint a, uint b) {
-  return b == NO_HIT || scene->triangles[a].primitive < scene->triangles[b].primitive;
-}
+#include "lib/wide_tree.cl"
 
 #if HAS(TREE) && HAS(PACKETS)
-
-#define WIDE_NODE_FLOATS 64   // lo[3][8], hi[3][8], child[8], pad
-
-/// Up to eight triangles: first, first + 1, … in leaf order.
-typedef struct {
-  __global const float* corners;  // [3 corners][3 axes][count], m; may be read eight floats beyond
-  uint first, count;
-} Leaf;
-
-INLINE Leaf leafOf(const SceneView* scene, int child) {
-  const uint packed = (uint)~child;
-  Leaf leaf;
-  leaf.first = packed >> 3;
-  leaf.count = (packed & 7u) + 1;
-  leaf.corners = scene->leaves + (size_t)leaf.first * 9;
-  return leaf;
-}
-
-/// One coordinate of one corner of all the leaf's triangles; lanes beyond its count hold others.
-INLINE float8 leafPlane(const Leaf* leaf, int corner, int axis) {
-  return vload8(0, leaf->corners + (uint)(3 * corner + axis) * leaf->count);
-}
-
-INLINE uint leafLanes(const Leaf* leaf) { return (1u << leaf->count) - 1u; }
-
-/// One bit for each lane of a comparison.
-INLINE uint laneBits(int8 mask) {
-#if defined(__AVX__) && defined(__clang__)
-  return (uint)__builtin_ia32_movmskps256(as_float8(mask));
-#else
-  const int8 bits = mask & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
-  const int4 a = bits.lo | bits.hi;
-  const int2 b = a.lo | a.hi;
-  return (uint)(b.x | b.y);
-#endif
-}
-
-INLINE uint lowestBit(uint bits) {
-#ifdef __clang__
-  return (uint)__builtin_ctz(bits);
-#else
-  return popcount((bits & (0u - bits)) - 1u);
-#endif
-}
 
 /// The rays of a packet: what a search is given and gives back.
 typedef struct {
@@ -128,10 +78,8 @@ INLINE int8 wideEntries(const WideRay* r, __global const float* node, float tMax
 float8 clampToBoxes(const WideRay* r, const Leaf* leaf, float8 t) {
   float8 far[3];
   for (int a = 0; a < 3; ++a) {
-    const float8 v0 = leafPlane(leaf, 0, a), v1 = leafPlane(leaf, 1, a), v2 = leafPlane(leaf, 2, a);
-    float8 lo = v0 < v1 ? v0 : v1, hi = v0 < v1 ? v1 : v0;
-    lo = v2 < lo ? v2 : lo;
-    hi = v2 > hi ? v2 : hi;
+    float8 lo, hi;
+    leafExtents(leaf, a, &lo, &hi);
     const int down = !(r->inverse[a] >= 0.0f);
     const float8 near = ((down ? hi : lo) - r->o[a]) * r->inverse[a];
     far[a] = ((down ? lo : hi) - r->o[a]) * r->inverse[a];
@@ -212,18 +160,6 @@ INLINE int testOcclusionLeaf(const SceneView* scene, const RayTable* rays, const
   return (bits & laneBits(t8 < tMax)) != 0;
 #endif
 }
-
-/// Children of a node as keys: the bits of the distance at which each is entered (not negative, so that they sort as
-/// integers), with the lane in the lowest three bits; NO_CHILD where there is none. A key is never above its distance.
-#define NO_CHILD 0xffffffffu
-
-INLINE uint8 childKeys(int8 entered, float8 entry) {
-  const uint8 lane = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
-  return select((uint8)(NO_CHILD), (as_uint8(entry) & ~7u) | lane, as_uint8(entered));
-}
-
-/// Keys above this belong to children that lie behind t.
-INLINE uint keyLimit(float t) { return as_uint(t * FAR_WIDENING) | 7u; }
 
 /// A ray on its way to its nearest hit: children of `group` still to visit, the groups above it on the stack.
 typedef struct {

@@ -38,6 +38,13 @@ Ray makeRay(float3 o, float3 d) {
   return r;
 }
 
+/// Least and greatest of three.
+INLINE void extent(float a, float b, float c, float* lo, float* hi) {
+  const float least = a < b ? a : b, greatest = a < b ? b : a;
+  *lo = c < least ? c : least;
+  *hi = c > greatest ? c : greatest;
+}
+
 INLINE float largestOfThree(float a, float b, float c) {
   const float ab = a > b ? a : b;
   return ab > c ? ab : c;
@@ -54,10 +61,8 @@ INLINE float largestOfThree(float a, float b, float c) {
 INLINE float clampToBox(const Ray* r, __global const DeviceTriangle* triangle, float t) {
   float far[3];
   for (int a = 0; a < 3; ++a) {
-    const float v0 = triangle->v[0][a], v1 = triangle->v[1][a], v2 = triangle->v[2][a];
-    float lo = v0 < v1 ? v0 : v1, hi = v0 < v1 ? v1 : v0;
-    lo = v2 < lo ? v2 : lo;
-    hi = v2 > hi ? v2 : hi;
+    float lo, hi;
+    extent(triangle->v[0][a], triangle->v[1][a], triangle->v[2][a], &lo, &hi);
     const int down = !(r->inverse[a] >= 0.0f);
     const float near = ((down ? hi : lo) - r->o[a]) * r->inverse[a];
     far[a] = ((down ? lo : hi) - r->o[a]) * r->inverse[a];

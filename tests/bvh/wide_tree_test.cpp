@@ -14,7 +14,6 @@ namespace {
 
 struct Walk {
   std::vector<int> seen;  ///< how often a position of TriTree::order lies in a leaf
-  int stack = 0;
   std::size_t nodes = 0, leaves = 0;
   int depth = 0;
 };
@@ -26,19 +25,16 @@ bool contains(const WideNode& n, int k, float x, float y, float z) {
 
 /// Visits everything below `index`; `boxes`: every box on the way must contain each corner.
 void walk(const WideTree& wide, const TriTree& tree, const test::TriangleMesh& mesh, std::int32_t index,
-          int waiting, std::vector<std::pair<std::int32_t, int>>& boxes, Walk& w) {
+          std::vector<std::pair<std::int32_t, int>>& boxes, Walk& w) {
   ++w.nodes;
   w.depth = std::max(w.depth, static_cast<int>(boxes.size()) + 1);
   const WideNode& node = wide.nodes.at(static_cast<std::size_t>(index));
-  int children = 0;
-  for (int k = 0; k < 8; ++k) children += node.lo[0][k] <= node.hi[0][k];
-  w.stack = std::max(w.stack, waiting + children - 1);
   for (int k = 0; k < 8; ++k) {
     if (!(node.lo[0][k] <= node.hi[0][k])) continue;
     boxes.emplace_back(index, k);
     if (node.child[k] >= 0) {
       ASSERT_GT(node.child[k], index) << "a cycle";
-      walk(wide, tree, mesh, node.child[k], waiting + children - 1, boxes, w);
+      walk(wide, tree, mesh, node.child[k], boxes, w);
     } else {
       const auto packed = static_cast<std::uint32_t>(~node.child[k]);
       const std::uint32_t first = packed >> 3U, count = (packed & 7U) + 1;
@@ -67,10 +63,9 @@ void expectWhole(const test::TriangleMesh& mesh, const std::string& name, const 
   Walk w;
   w.seen.resize(tree.order.size());
   std::vector<std::pair<std::int32_t, int>> boxes;
-  walk(wide, tree, mesh, 0, 0, boxes, w);
+  walk(wide, tree, mesh, 0, boxes, w);
   for (std::size_t i = 0; i < w.seen.size(); ++i) ASSERT_EQ(w.seen[i], 1) << "position " << i;
   EXPECT_EQ(w.nodes, wide.nodes.size());
-  EXPECT_EQ(w.stack, std::max(0, wide.stack));
   EXPECT_EQ(w.depth, wide.depth);
   EXPECT_EQ(w.leaves, wide.leaves);
   EXPECT_GE(wide.corners.size(), 9 * tree.order.size() + 8);

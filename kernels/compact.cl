@@ -24,7 +24,7 @@ __kernel void compact_count(const uint count, __global const uint* flags,
 /// Two work items, one for each kind: totals[kind][i] becomes the sum of those before it; sums[kind] the sum of all.
 __kernel void scan_chunks(const uint chunks, __global uint* totals, __global uint* sums) {
   const uint kind = get_global_id(0);
-  if (kind >= 2) return;
+  if (kind >= 2 || !sums) return;  // no sums: compiled ahead of its first launch
   __global uint* own = totals + kind * chunks;
   uint running = 0;
   for (uint i = 0; i < chunks; ++i) {

@@ -2,6 +2,7 @@
 // entry's radiance (emission, background, light that needs no shadow ray), its shadow candidate for the first light, its
 // impulse candidates and their flags. What is written for an entry without its flag means nothing.
 // shade_light: the shadow candidate of a further light, one round for each light, so that memory does not grow with them.
+#include "lib/background.cl"
 #include "lib/bsdf.cl"
 #include "lib/light.cl"
 #include "lib/sampler.cl"

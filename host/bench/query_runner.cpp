@@ -47,9 +47,9 @@ QueryRunner::QueryRunner(Compute& compute, const Scene& scene, const TriTree& tr
                          const std::optional<std::filesystem::path>& kernelFolder)
     : compute_(compute), tree_(tree), kernel_(kernel) {
   const std::string options = fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x}", kernel.features);
-  stages_.emplace(compute_,
-                  compute_.build(assembleKernelSource({"intersect.cl", "occlude.cl"}, kernelFolder), options),
-                  defaultWorkGroup(SceneFeatures::ofBits(kernel.features)));
+  const std::vector programs{
+      compute_.build(assembleKernelSource({"intersect.cl", "occlude.cl"}, kernelFolder), options)};
+  stages_.emplace(compute_, programs, defaultWorkGroup(SceneFeatures::ofBits(kernel.features)));
   scene_ = uploadScene(compute_, bareScene(scene), tree_, SceneFeatures::ofBits(kernel.features));
 }
 

@@ -12,6 +12,7 @@
 #include "cli/help.h"
 #include "cli/signals.h"
 #include "cli/text.h"
+#include "render/compiler_process.h"
 #include "scene/input_error.h"
 
 namespace whittle::cli {
@@ -94,6 +95,10 @@ void addCommands(CLI::App& app, int& status) {
 }  // namespace
 
 int runApplication(int argc, const char* const* argv) {
+  if (argc > 1 && argv[1] == std::string(kCompilerCommand)) {
+    compilerProcessMain({argv + 2, argv + argc});
+    return 0;
+  }
   installSignals(isatty(STDERR_FILENO));
   CLI::App app{"Whittle: a wavefront Whitted ray tracer for glTF scenes on any OpenCL device"};
   int status = 0;

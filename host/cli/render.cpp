@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <future>
 #include <memory>
 
 #include "cl/device.h"
@@ -84,7 +85,12 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
   if (!o.kernelFolder.empty()) hooks.kernelFolder = o.kernelFolder;
   if (!o.reference.empty()) hooks.reference = &reference;
   hooks.trace = trace;
-  hooks.phase = [&](const std::string& text) { bar.phase(text); };
+  hooks.compiler = "/proc/self/exe";
+  std::future<void> codec;  // loaded meanwhile; a problem shows when a picture is written
+  hooks.phase = [&](const std::string& text) {
+    bar.phase(text);
+    if (!o.outputs.empty() && !codec.valid()) codec = std::async(std::launch::async, loadImageCodec);
+  };
   hooks.progress = [&](const RenderProgress& p) {
     bar.update(static_cast<double>(p.samplesDone) / static_cast<double>(p.samplesTotal), p.seconds,
                formatRate(p.seconds > 0.0 ? static_cast<double>(p.rays) / p.seconds : 0.0));

@@ -13,10 +13,11 @@
 
 #include "bvh/tri_tree.h"
 #include "cl/device.h"
-#include "cl/kernel_source.h"
 #include "cl/program.h"
 #include "render/camera_to_device.h"
+#include "render/compiler_process.h"
 #include "render/film.h"
+#include "render/kernel_programs.h"
 #include "render/pixel_order.h"
 #include "render/plan.h"
 #include "render/wavefront.h"
@@ -55,13 +56,6 @@ TriTree buildTree(const Scene& scene, bool wanted) {
   return tree;
 }
 
-/// Stages in the program, in pipeline order.
-const std::vector<std::string>& stageFiles() {
-  static const std::vector<std::string> files{"raygen.cl",  "intersect.cl",  "shade.cl", "compact.cl",
-                                              "occlude.cl", "accumulate.cl", "film.cl"};
-  return files;
-}
-
 std::uint32_t roundedCapacity(const Settings& s) {
   const std::uint64_t samples = static_cast<std::uint64_t>(s.width) * s.height * s.raysPerPixel;
   // Never more than the picture has samples (twice, for branching), never fewer than two long runs.
@@ -93,7 +87,7 @@ class Session {
     if (settings_.threads > 0)
       tbbLimit_.emplace(tbb::global_control::max_allowed_parallelism, settings_.threads);
     const bool cpu = compute_->device().kind == "cpu";
-    features_ = SceneFeatures::analyse(scene_, settings_, {cpu});
+    features_ = SceneFeatures::analyse(scene_, settings_, {cpu}).with(hooks_.alsoFeatures);
     compactChunk_ = cpu ? 1024 : 32;
     workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : defaultWorkGroup(features_);
     if (static_cast<std::uint64_t>(workGroup_) > compute_->device().maxWorkGroup)
@@ -127,17 +121,24 @@ class Session {
 
   void prepare() {
     say("compiling kernels");
-    auto program = std::async(std::launch::async, [this] {
+    auto programs = std::async(std::launch::async, [this] {
       const auto start = Clock::now();
-      const std::string options = fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}",
-                                              features_.bits(), compactChunk_);
-      cl::Program built = compute_->build(assembleKernelSource(stageFiles(), hooks_.kernelFolder), options);
+      const auto stages = plannedStages(features_, scene_.lights.size(), settings_.bounces);
+      const CompileTarget target{compactChunk_, workGroup_};
+      CompileBeside beside;
+      if (!hooks_.compiler.empty())
+        beside = [&] {
+          return startCompilerProcess(hooks_.compiler, {compute_->device().index, features_.bits(), target,
+                                                        hooks_.kernelFolder, stages});
+        };
+      auto built =
+          compilePrograms(*compute_, kernelPrograms(features_, stages, hooks_.kernelFolder), target, beside);
       stats_.time.compile = secondsSince(start);
       tracePhase("compile kernels", start, Trace::Track::Compiler);
       return built;
     });
     allocate();
-    stages_.emplace(*compute_, program.get(), workGroup_);
+    stages_.emplace(*compute_, programs.get(), workGroup_);
     stages_->record(hooks_.trace);
     const WavefrontSetup setup{features_,
                                deviceScene_,

@@ -202,6 +202,16 @@ std::vector<Question> cameraQuestions(const Needs& n) {
 
 }  // namespace
 
+SceneFeatures SceneFeatures::with(std::uint64_t bits) const {
+  SceneFeatures more = *this;
+  more.bits_ |= bits;
+  for (auto& line : more.lines_) {
+    line.used = more.has(line.feature);
+    if (line.used) line.reason.clear();
+  }
+  return more;
+}
+
 SceneFeatures SceneFeatures::analyse(const Scene& scene, const Settings& settings,
                                      const DeviceTraits& traits) {
   const Needs needs(scene, settings, traits);

@@ -45,6 +45,8 @@ class SceneFeatures {
     features.bits_ = bits;
     return features;
   }
+  /// These and those of `bits` as well, needed or not.
+  SceneFeatures with(std::uint64_t bits) const;
   /// Derives the features. settings.keepAllFeatures switches everything on that does not contradict the
   /// settings.
   static SceneFeatures analyse(const Scene& scene, const Settings& settings, const DeviceTraits& traits);

@@ -7,15 +7,20 @@ namespace whittle {
 
 int defaultWorkGroup(const SceneFeatures& features) { return features.has(Feature::PACKETS) ? 8 : 64; }
 
-StageRunner::StageRunner(Compute& compute, cl::Program program, int workGroup)
-    : compute_(compute), program_(std::move(program)), workGroup_(static_cast<std::size_t>(workGroup)) {}
+StageRunner::StageRunner(Compute& compute, const std::vector<cl::Program>& programs, int workGroup)
+    : compute_(compute), workGroup_(static_cast<std::size_t>(workGroup)) {
+  for (cl::Program program : programs)  // opencl.hpp asks a program that may change
+    clTry("finding the kernels of a program", [&] {
+      std::vector<cl::Kernel> kernels;
+      program.createKernels(&kernels);
+      for (const auto& kernel : kernels) kernels_.emplace(kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(), kernel);
+    });
+}
 
 cl::Kernel& StageRunner::find(const std::string& name) {
   const auto found = kernels_.find(name);
-  if (found != kernels_.end()) return found->second;
-  return clTry("finding kernel '" + name + "'", [&]() -> cl::Kernel& {
-    return kernels_.emplace(name, cl::Kernel(program_, name.c_str())).first->second;
-  });
+  if (found == kernels_.end()) throw ClError("no program has a kernel '" + name + "'");
+  return found->second;
 }
 
 std::size_t StageRunner::stageIndex(const std::string& name) {

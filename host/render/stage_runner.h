@@ -25,7 +25,7 @@ class StageRunner {
  public:
   /// `workGroup` work items at a time; every launch of a kernel uses the same, because PoCL compiles each
   /// anew.
-  StageRunner(Compute& compute, cl::Program program, int workGroup);
+  StageRunner(Compute& compute, const std::vector<cl::Program>& programs, int workGroup);
 
   /// Runs `kernel` over `workItems` work items. `items` is what statistics count. Arguments in the kernel's
   /// order: Buffers (empty ones become null pointers), a DeviceScene (expands to SCENE_PARAMS), or plain
@@ -79,9 +79,8 @@ class StageRunner {
   }
 
   Compute& compute_;
-  cl::Program program_;
   std::size_t workGroup_;
-  std::unordered_map<std::string, cl::Kernel> kernels_;
+  std::unordered_map<std::string, cl::Kernel> kernels_;  ///< of all programs
   std::vector<StageStats> stages_;
   std::vector<Launch> launches_;
   Trace* trace_ = nullptr;

@@ -1,4 +1,5 @@
-// Image files in and out. The only user of OpenImageIO.
+// Image files in and out. The codec behind it (host/codec, the only user of OpenImageIO) is loaded when first
+// needed.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +21,10 @@ struct FloatImage {
   int channels = 3;
   std::vector<float> pixels;  ///< width·height·channels
 };
+
+/// Loads the codec now, which takes a quarter of a second: from a thread that has nothing else to do. Throws
+/// std::runtime_error where its library is missing, as do all functions below that need it.
+void loadImageCodec();
 
 /// Decodes a PNG/JPEG/… held in memory (a texture inside a .glb) to 8-bit RGBA. Throws InputError naming
 /// `name`.

@@ -1,8 +1,9 @@
-// A point of a triangle: where it lies, its texture coordinates, its base colour, and what of the light it lets through.
-// Conventions: host/reference/README.md.
+// A point of a triangle: where it lies, its texture coordinates, its base colour, and what of the light it lets through:
+// what searches ask where a surface may be missing or see-through. Conventions: host/reference/README.md.
 #include "lib/fresnel.cl"
 #include "lib/texture.cl"
 
+#if HAS(ALPHA_MASK) || HAS(FILTERED_SHADOWS)
 /// Where in its triangle a hit lies. Low parts: what b1 and b2 lost to rounding, 0 where nobody asked.
 typedef struct {
   float b0, b1, b2;
@@ -79,7 +80,7 @@ INLINE TrianglePoint trianglePoint(const SceneView* scene, uint triangleIndex, B
 INLINE float4 baseColorAt(const SceneView* scene, const TrianglePoint* p) {
   __global const DeviceMaterial* m = p->material;
   float4 c = (float4)(m->baseColor[0], m->baseColor[1], m->baseColor[2], m->baseColor[3]);
-#if HAS(BASE_COLOR_TEXTURE)
+#if HAS(TEXTURES) && HAS(BASE_COLOR_TEXTURE)
   if (m->baseColorTexture >= 0) c *= sampleTexture(scene, m->baseColorTexture, &p->uv, 1);
 #endif
 #if HAS(VERTEX_COLORS)
@@ -111,10 +112,10 @@ INLINE float3 shadowTransmittance(const SceneView* scene, uint triangleIndex, fl
 #if HAS(TRANSMISSION)
   float transmission = m->transmission;
   float metallic = m->metallic;
-#if HAS(TRANSMISSION_TEXTURE)
+#if HAS(TEXTURES) && HAS(TRANSMISSION_TEXTURE)
   if (m->transmissionTexture >= 0) transmission *= sampleTexture(scene, m->transmissionTexture, &p.uv, 0).x;
 #endif
-#if HAS(METALLIC_ROUGHNESS_TEXTURE)
+#if HAS(TEXTURES) && HAS(METALLIC_ROUGHNESS_TEXTURE)
   if (m->metallicRoughnessTexture >= 0)
     metallic *= sampleTexture(scene, m->metallicRoughnessTexture, &p.uv, 0).z;
 #endif
@@ -136,3 +137,4 @@ INLINE int passesAlphaMask(const SceneView* scene, uint triangleIndex, float b1,
   const TrianglePoint p = trianglePoint(scene, triangleIndex, b, &b);
   return baseColorAt(scene, &p).w >= p.material->alphaCutoff;
 }
+#endif

@@ -1,6 +1,6 @@
 // The surfels of the LANES hits of a work item: what shading needs to know of the surface, evaluated from vertices,
 // material and textures. Conventions: host/reference/README.md.
-#include "lib/surfel.cl"
+#include "lib/fresnel.cl"
 #include "lib/textures.cl"
 
 typedef struct {
@@ -109,6 +109,7 @@ INLINE Uvs uvsAt(const SceneView* scene, const Natural* corner, const Positions*
   return uv;
 }
 
+#if HAS(TEXTURES)
 /// RGBA of a texture slot of each lane's material; 1 where it has none.
 INLINE Texels textureAt(const SceneView* scene, const Places* at, Natural slots, int srgb) {
   const Mask used = slots < 0x80000000u;
@@ -117,6 +118,7 @@ INLINE Texels textureAt(const SceneView* scene, const Places* at, Natural slots,
   if (!some(used)) return none;
   return chooseTexels(used, sampleTextures(scene, used ? slots : (Natural)(0), &at->uv, srgb), none);
 }
+#endif
 
 /// Lanes that hit nothing must name a triangle that is there.
 INLINE Places placesOf(const SceneView* scene, Natural triangleIndex, Real3 o, Real3 d, Real t, Real b1, Real b2) {
@@ -150,7 +152,7 @@ INLINE Real3 baseColorsAt(const SceneView* scene, const Places* at, Real* alpha)
   const uint word = WORD_OF(DeviceMaterial, baseColor);
   Real c[4];
   for (uint n = 0; n < 4; ++n) c[n] = wordOf(&at->material, word + n);
-#if HAS(BASE_COLOR_TEXTURE)
+#if HAS(TEXTURES) && HAS(BASE_COLOR_TEXTURE)
   const Texels texel = textureAt(scene, at, MATERIAL_BITS(at, baseColorTexture), 1);
   for (uint n = 0; n < 4; ++n) c[n] *= texel.c[n];
 #endif
@@ -177,7 +179,7 @@ INLINE Real3 vertexNormalsAt(const SceneView* scene, const Places* at, Real3 n_g
 }
 #endif
 
-#if HAS(NORMAL_TEXTURE)
+#if HAS(TEXTURES) && HAS(NORMAL_TEXTURE)
 /// n tilted by the normal map; n itself where there is none or no tangent to lay it along.
 INLINE Real3 mappedNormals(const SceneView* scene, const Places* at, Real3 n) {
   const Natural slots = MATERIAL_BITS(at, normalTexture);
@@ -204,11 +206,11 @@ INLINE void specularReflectance(const SceneView* scene, const Places* at, Surfel
 #if HAS(SPECULAR_EXTENSION)
   Real strength = MATERIAL(at, specular);
   Real3 tint = MATERIAL3(at, specularColor);
-#if HAS(SPECULAR_TEXTURE)
+#if HAS(TEXTURES) && HAS(SPECULAR_TEXTURE)
   const Texels specular = textureAt(scene, at, MATERIAL_BITS(at, specularTexture), 0);
   strength *= specular.c[3];
 #endif
-#if HAS(SPECULAR_COLOR_TEXTURE)
+#if HAS(TEXTURES) && HAS(SPECULAR_COLOR_TEXTURE)
   const Texels specularColor = textureAt(scene, at, MATERIAL_BITS(at, specularColorTexture), 1);
   tint = mul3(tint, real3(specularColor.c[0], specularColor.c[1], specularColor.c[2]));
 #endif
@@ -229,7 +231,7 @@ INLINE void materialAt(const SceneView* scene, const Places* at, Surfel* s) {
 #endif
   s->metallic = MATERIAL(at, metallic);
   s->roughness = MATERIAL(at, roughness);
-#if HAS(METALLIC_ROUGHNESS_TEXTURE)
+#if HAS(TEXTURES) && HAS(METALLIC_ROUGHNESS_TEXTURE)
   const Texels metallicRoughness = textureAt(scene, at, MATERIAL_BITS(at, metallicRoughnessTexture), 0);
   s->metallic *= metallicRoughness.c[2];
   s->roughness *= metallicRoughness.c[1];
@@ -237,7 +239,7 @@ INLINE void materialAt(const SceneView* scene, const Places* at, Surfel* s) {
   s->metallic = clampUnit(s->metallic);
   s->roughness = clampUnit(s->roughness);
   s->transmission = MATERIAL(at, transmission);
-#if HAS(TRANSMISSION_TEXTURE)
+#if HAS(TEXTURES) && HAS(TRANSMISSION_TEXTURE)
   const Texels transmission = textureAt(scene, at, MATERIAL_BITS(at, transmissionTexture), 0);
   s->transmission *= transmission.c[0];
 #endif
@@ -247,7 +249,7 @@ INLINE void materialAt(const SceneView* scene, const Places* at, Surfel* s) {
   s->emission = same3((float3)(0.0f));
 #if HAS(EMISSION)
   Real3 emission = MATERIAL3(at, emission);
-#if HAS(EMISSION_TEXTURE)
+#if HAS(TEXTURES) && HAS(EMISSION_TEXTURE)
   const Texels glow = textureAt(scene, at, MATERIAL_BITS(at, emissionTexture), 1);
   emission = mul3(emission, real3(glow.c[0], glow.c[1], glow.c[2]));
 #endif
@@ -280,7 +282,7 @@ INLINE Surfel surfelAt(const SceneView* scene, const RenderConstants* constants,
 #if HAS(VERTEX_NORMALS)
   n = vertexNormalsAt(scene, &at, n_g);
 #endif
-#if HAS(NORMAL_TEXTURE)
+#if HAS(TEXTURES) && HAS(NORMAL_TEXTURE)
   n = mappedNormals(scene, &at, n);
 #endif
   s.n_g = choose3(s.front, n_g, minus3(n_g));

@@ -1,6 +1,8 @@
-// Texture lookups: level 0, bilinear or nearest, wrap modes, sRGB decoded for each texel before filtering.
+// Texture lookups of one hit, for searches: level 0, bilinear or nearest, wrap modes, sRGB decoded for each texel before
+// filtering.
 #include "lib/scene.cl"
 
+#if HAS(ALPHA_MASK) || HAS(FILTERED_SHADOWS)
 /// Texture coordinates of both sets, each with what its rounding lost: beside a count of many repeats a float's last
 /// bit is a good part of a texel.
 typedef struct {
@@ -67,32 +69,4 @@ INLINE float4 sampleTexture(const SceneView* scene, int slot, const Uv* uv, int 
   const float4 low = fetchTexel(scene, texture, x0, y1, srgb) * (1.0f - wx) + fetchTexel(scene, texture, x1, y1, srgb) * wx;
   return top * (1.0f - wy) + low * wy;
 }
-
-#if HAS(BACKGROUND_MAP)
-INLINE float3 backgroundTexel(const SceneView* scene, const RenderConstants* constants, int x, int y) {
-  const int w = constants->backgroundWidth, h = constants->backgroundHeight;
-  x = x < 0 ? x + w : (x >= w ? x - w : x);
-  x = x < 0 ? 0 : (x >= w ? w - 1 : x);
-  y = y < 0 ? 0 : (y >= h ? h - 1 : y);
-  return load3(scene->background + ((size_t)y * w + x) * 3);
-}
 #endif
-
-/// Radiance of a ray that leaves the scene along d.
-INLINE float3 backgroundRadiance(const SceneView* scene, const RenderConstants* constants, float3 d) {
-  const float3 uniformRadiance = (float3)(constants->background[0], constants->background[1], constants->background[2]);
-#if HAS(BACKGROUND_MAP)
-  if (constants->backgroundWidth > 0) {
-    const float cosine = d.y > -1.0f ? (d.y < 1.0f ? d.y : 1.0f) : -1.0f;
-    const float x = (0.5f + atan2(d.x, -d.z) * (0.5f / PI)) * (float)constants->backgroundWidth - 0.5f;
-    const float y = acos(cosine) * (1.0f / PI) * (float)constants->backgroundHeight - 0.5f;
-    const float fx = floor(x), fy = floor(y);
-    const float wx = x - fx, wy = y - fy;
-    const int ix = (int)fx, iy = (int)fy;
-    const float3 top = backgroundTexel(scene, constants, ix, iy) * (1.0f - wx) + backgroundTexel(scene, constants, ix + 1, iy) * wx;
-    const float3 low = backgroundTexel(scene, constants, ix, iy + 1) * (1.0f - wx) + backgroundTexel(scene, constants, ix + 1, iy + 1) * wx;
-    return uniformRadiance * (top * (1.0f - wy) + low * wy);
-  }
-#endif
-  return uniformRadiance;
-}

@@ -1,6 +1,7 @@
-// Texture lookups of LANES hits side by side: texture.cl in lanes, so that the loads of all of them are under way at once.
+// Texture lookups of LANES hits side by side: texture.cl in lanes, so that the loads of all of them are under way at
+// once. Level 0, bilinear or nearest, wrap modes, sRGB decoded for each texel before filtering.
 #include "lib/lanes.cl"
-#include "lib/texture.cl"
+#include "lib/scene.cl"
 
 /// Texture coordinates of both sets, each with what its rounding lost.
 typedef struct {
@@ -53,6 +54,7 @@ INLINE Texels chooseTexels(Mask m, Texels a, Texels b) {
   return a;
 }
 
+#if HAS(TEXTURES)
 /// RGBA of a texture slot for each lane at the transformed coordinate. Not in line: up to seven slots, and the calls cost
 /// less than a tenth of shade where the copies cost two thirds of the time to compile.
 Texels sampleTextures(const SceneView* scene, Natural slots, const Uvs* uv, int srgb) {
@@ -93,3 +95,4 @@ Texels sampleTextures(const SceneView* scene, Natural slots, const Uvs* uv, int 
   if (some(lost)) result = chooseTexels(lost, fetchTexels(scene, &texture, zero, zero, srgb), result);
   return result;
 }
+#endif

@@ -1,10 +1,14 @@
 // No code that the scene does not need, and no difference without it: the kernels cut down to a scene's
 // features give the bits of the whole ones, and every cut compiles.
-#include <fstream>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <set>
 
 #include "cl/kernel_source.h"
 #include "pictures.h"
+#include "render/kernel_programs.h"
+#include "render/plan.h"
 #include "render/scene_features.h"
 #include "single_rays.h"
 #include "support/test_device.h"
@@ -28,17 +32,33 @@ TEST_P(OwnSceneFeatures, SpecialisedKernelsGiveTheBitsOfTheWholeOnes) {
 INSTANTIATE_TEST_SUITE_P(Scenes, OwnSceneFeatures, ::testing::ValuesIn(ownScenes()),
                          [](const auto& scene) { return scene.param; });
 
-const std::vector<std::string> kStages{"raygen.cl",  "intersect.cl",  "shade.cl", "compact.cl",
-                                       "occlude.cl", "accumulate.cl", "film.cl"};
+/// Compiles each of the programs of a set of features once, however many sets ask for it.
+class ProgramBuilds {
+ public:
+  ProgramBuilds() : compute_(openTestDevice()) {}
 
-/// Empty where the whole program compiles for these features without a word.
-std::string buildLog(Compute& compute, std::uint64_t bits) {
-  char options[96];
-  std::snprintf(options, sizeof options, "-cl-std=CL1.2 -D SCENE_FEATURES=0x%llx",
-                static_cast<unsigned long long>(bits));
-  compute.build(assembleKernelSource(kStages, testKernelFolder()), options);
-  return compute.buildLog();
-}
+  /// What the compiler said of the programs that are new.
+  std::string log(std::uint64_t bits) {
+    const SceneFeatures features = SceneFeatures::ofBits(bits);
+    std::string said;
+    for (const KernelProgram& program :
+         kernelPrograms(features, plannedStages(features, 2, 16), testKernelFolder())) {
+      if (!built_.emplace(program.name, program.features).second) continue;
+      compute_.build(program.source, fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x}", program.features));
+      said += compute_.buildLog();
+    }
+    return said;
+  }
+  /// Different programs of this name so far.
+  std::ptrdiff_t different(const std::string& name) const {
+    return std::count_if(built_.begin(), built_.end(),
+                         [&](const auto& built) { return built.first == name; });
+  }
+
+ private:
+  Compute compute_;
+  std::set<std::pair<std::string, std::uint64_t>> built_;
+};
 
 /// A floor with vertex normals, a light without shadows, nothing else.
 Scene plainScene() {
@@ -54,38 +74,6 @@ Scene plainScene() {
   return scene;
 }
 
-/// The kernels as they are, but for one feature that is always there.
-class ForcedKernels {
- public:
-  explicit ForcedKernels(int bit) {
-    folder_ = std::filesystem::temp_directory_path() / ("whittle_forced_" + std::to_string(getpid()));
-    for (const auto& [name, text] : embeddedKernelFiles()) {
-      const auto file = folder_ / name;
-      std::filesystem::create_directories(file.parent_path());
-      std::ofstream(file) << (name == "shared/features.h" ? forced(text, bit) : text);
-    }
-  }
-  ForcedKernels(const ForcedKernels&) = delete;
-  ForcedKernels& operator=(const ForcedKernels&) = delete;
-  ~ForcedKernels() { std::filesystem::remove_all(folder_); }
-  const std::filesystem::path& folder() const { return folder_; }
-
- private:
-  static std::string forced(std::string text, int bit) {
-    const std::string from = "((SCENE_FEATURES >> BIT_##feature) & 1)";
-    const auto at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << "features.h asks in another way now";
-    return text.replace(
-        at, from.size(),
-        "(((SCENE_FEATURES >> BIT_##feature) & 1) || BIT_##feature == " + std::to_string(bit) + ")");
-  }
-
-  std::filesystem::path folder_;
-};
-
-/// Features that change what a work item is or which data it finds: the host must know of them.
-bool isContract(Feature f) { return f == Feature::PACKETS || f == Feature::TREE; }
-
 TEST(Features, EachOneThatASceneDoesNotNeedChangesNothing) {
   const Scene scene = plainScene();
   Settings settings;
@@ -95,22 +83,22 @@ TEST(Features, EachOneThatASceneDoesNotNeedChangesNothing) {
   const SceneFeatures features = SceneFeatures::analyse(scene, settings, {true});
   std::size_t forced = 0;
   for (const auto& line : features.lines()) {
-    if (line.used || isContract(line.feature)) continue;
-    const ForcedKernels kernels(static_cast<int>(line.feature));
+    if (line.used) continue;
     RenderHooks hooks;
-    hooks.kernelFolder = kernels.folder();
-    EXPECT_EQ(differingPixels(plain.radiance, renderOnDevice(scene, settings, hooks).radiance), 0U)
-        << line.text;
+    hooks.alsoFeatures = std::uint64_t{1} << static_cast<int>(line.feature);
+    const RenderResult more = renderOnDevice(scene, settings, hooks);
+    EXPECT_EQ(differingPixels(plain.radiance, more.radiance), 0U) << line.text;
+    EXPECT_EQ(more.stats.featuresUsed.size(), plain.stats.featuresUsed.size() + 1) << line.text;
     ++forced;
   }
   EXPECT_GT(forced, 30U);
 }
 
 TEST(Features, EachAloneAndAllTogetherCompileWithoutAWarning) {
-  Compute compute = openTestDevice();
-  EXPECT_EQ(buildLog(compute, 0), "");
-  EXPECT_EQ(buildLog(compute, ~std::uint64_t{0} >> 1), "");
-#define WHITTLE_BUILD(name, bit, text) EXPECT_EQ(buildLog(compute, std::uint64_t{1} << (bit)), "") << (text);
+  ProgramBuilds builds;
+  EXPECT_EQ(builds.log(0), "");
+  EXPECT_EQ(builds.log(~std::uint64_t{0} >> 1), "");
+#define WHITTLE_BUILD(name, bit, text) EXPECT_EQ(builds.log(std::uint64_t{1} << (bit)), "") << (text);
   WHITTLE_FEATURES(WHITTLE_BUILD)
 #undef WHITTLE_BUILD
 }
@@ -145,18 +133,23 @@ std::vector<std::filesystem::path> sharedGltfScenes() {
 
 TEST(Features, EverySetThatScenesAskForCompilesWithoutAWarning) {
   std::set<std::uint64_t> sets;
-  const auto add = [&](const Scene& scene) {
-    Settings settings = smallSettings();
-    sets.insert(SceneFeatures::analyse(scene, settings, {true}).bits());
-    settings.bounces = 1;
-    settings.shadows = false;
+  const auto add = [&](const Scene& scene, const Settings& settings) {
     sets.insert(SceneFeatures::analyse(scene, settings, {true}).bits());
   };
-  for (const auto& name : ownScenes()) add(ownScene(name));
-  for (const auto& file : sharedGltfScenes()) add(loadScene(file));
+  Settings least = smallSettings();
+  least.bounces = 1;
+  least.shadows = false;
+  for (const auto& name : ownScenes()) add(ownScene(name), smallSettings()), add(ownScene(name), least);
+  for (const auto& file : sharedGltfScenes()) add(loadScene(file), smallSettings());
   EXPECT_GT(sets.size(), 20U);
-  Compute compute = openTestDevice();
-  for (const std::uint64_t bits : sets) EXPECT_EQ(buildLog(compute, bits), "") << std::hex << bits;
+  ProgramBuilds builds;
+  for (const std::uint64_t bits : sets) EXPECT_EQ(builds.log(bits), "") << std::hex << bits;
+  // Scenes differ in how they shade; what they share is compiled once.
+  EXPECT_LE(builds.different("queues"), 2);
+  EXPECT_LE(builds.different("searches"), static_cast<std::ptrdiff_t>(sets.size() / 2));
+  RecordProperty("sets", static_cast<int>(sets.size()));
+  for (const char* name : {"queues", "searches", "shading"})
+    RecordProperty(name, static_cast<int>(builds.different(name)));
 }
 
 }  // namespace

@@ -27,9 +27,9 @@ class KernelBench {
                        std::uint64_t features = kAllFeatures, int compactChunk = 1024)
       : compute(openTestDevice()),
         stages(compute,
-               compute.build(assembleKernelSource(files, testKernelFolder()) + "#line 1 \"test kernels\"\n" +
-                                 testKernels,
-                             buildOptions(features, compactChunk)),
+               {compute.build(assembleKernelSource(files, testKernelFolder()) + "#line 1 \"test kernels\"\n" +
+                                  testKernels,
+                              buildOptions(features, compactChunk))},
                kWorkGroup) {}
 
   template <typename T>

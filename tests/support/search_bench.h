@@ -67,7 +67,7 @@ class SearchBench {
           assembleKernelSource({"intersect.cl", "occlude.cl", "lib/surfels.cl"}, testKernelFolder()) +
               "#line 1 \"test kernels\"\n" + testKernels,
           buildOptions(features.bits(), 1024));
-    stages.emplace(compute_, program, kWorkGroup);
+    stages.emplace(compute_, std::vector{program}, kWorkGroup);
     std::vector<glm::uvec3> corners;
     for (const Triangle& t : scene.triangles) corners.emplace_back(t.v0, t.v1, t.v2);
     if (form.search == Search::Tree) {

@@ -1,0 +1,130 @@
+// Programs cut down by what their text asks for: the conditions are read as a compiler reads them, and no
+// stage is left out.
+#include "render/kernel_programs.h"
+
+#include <gtest/gtest.h>
+
+#include "render/asked_features.h"
+#include "render/plan.h"
+#include "support/test_device.h"
+
+namespace whittle::test {
+namespace {
+
+constexpr std::uint64_t bit(Feature f) { return std::uint64_t{1} << static_cast<int>(f); }
+
+const std::uint64_t kTree = bit(Feature::TREE), kMirror = bit(Feature::MIRROR), kMetal = bit(Feature::METAL),
+                    kUnlit = bit(Feature::UNLIT), kAll = kTree | kMirror | kMetal | kUnlit;
+
+TEST(AskedFeatures, WhatNoLineAsksForIsLeftOut) {
+  EXPECT_EQ(askedFeatures("", kAll), 0U);
+  EXPECT_EQ(askedFeatures("int a;\n#if HAS(TREE)\n#endif\n", kAll), kTree);
+  EXPECT_EQ(askedFeatures("#if HAS(TREE)\n#endif\n", kMirror), 0U) << "asked for, and not there";
+  EXPECT_EQ(askedFeatures("#if HAS(TREE)  // and HAS(METAL)\n#endif\n", kAll), kTree)
+      << "a remark asks nothing";
+}
+
+TEST(AskedFeatures, OnlyTheBranchThatIsCompiledAsks) {
+  const std::string nested =
+      "#if HAS(TREE)\n#if HAS(MIRROR)\n#endif\n#else\n#if HAS(METAL)\n#endif\n#endif\n";
+  EXPECT_EQ(askedFeatures(nested, kAll), kTree | kMirror);
+  EXPECT_EQ(askedFeatures(nested, kAll & ~kTree), kMetal);
+  const std::string chain =
+      "#if HAS(TREE)\n#elif HAS(MIRROR)\n#if HAS(METAL)\n#endif\n#else\n#if HAS(UNLIT)\n#endif\n#endif\n";
+  EXPECT_EQ(askedFeatures(chain, kAll), kTree);
+  EXPECT_EQ(askedFeatures(chain, kAll & ~kTree), kMirror | kMetal);
+  EXPECT_EQ(askedFeatures(chain, kUnlit | kMetal), kUnlit);
+}
+
+TEST(AskedFeatures, AConditionEndsWhereItsAnswerIsKnown) {
+  const auto asked = [](const std::string& condition, std::uint64_t bits) {
+    return askedFeatures("#if " + condition + "\n#if HAS(UNLIT)\n#endif\n#endif\n", bits);
+  };
+  EXPECT_EQ(asked("HAS(TREE) || HAS(MIRROR)", kAll), kTree | kUnlit);
+  EXPECT_EQ(asked("HAS(TREE) || HAS(MIRROR)", kMirror | kUnlit), kMirror | kUnlit);
+  EXPECT_EQ(asked("HAS(TREE) && HAS(MIRROR)", kMirror | kUnlit), 0U);
+  EXPECT_EQ(asked("!HAS(TREE) && HAS(MIRROR)", kMirror | kUnlit), kMirror | kUnlit);
+  EXPECT_EQ(asked("!(HAS(TREE) || HAS(METAL)) || HAS(MIRROR)", kTree | kMetal | kUnlit), kTree);
+  EXPECT_EQ(asked("HAS(METAL) && (HAS(TREE) || HAS(MIRROR)) && HAS(UNLIT)", kMetal | kMirror | kUnlit),
+            kMetal | kMirror | kUnlit);
+}
+
+TEST(AskedFeatures, WhatIsNotAFeatureMayGoEitherWay) {
+  const std::string both = "#else\n#if HAS(MIRROR)\n#endif\n#endif\n";
+  for (const char* condition : {"#if defined(__AVX__)\n", "#ifdef __clang__\n", "#ifndef X\n",
+                                "#if defined(__AVX__) && defined(__clang__)\n", "#if __VERSION__ >= 120\n",
+                                "#if defined(__AVX__) || !HAS(METAL)\n"})
+    EXPECT_EQ(askedFeatures(condition + std::string("#if HAS(TREE)\n#endif\n") + both, kAll & ~kMetal),
+              condition == std::string("#if defined(__AVX__) || !HAS(METAL)\n") ? kTree : (kTree | kMirror))
+        << condition;
+}
+
+TEST(AskedFeatures, AFeatureThatDoesNotExistIsAnError) {
+  EXPECT_THROW(askedFeatures("#if HAS(NO_SUCH)\n#endif\n", 0), std::runtime_error);
+}
+
+/// Point lights are what is left of the kinds, random places what is left of the samplers; the host alone asks for
+/// BOTH_BRANCHES.
+TEST(KernelPrograms, EveryFeatureIsAskedForBySomeProgram) {
+  std::uint64_t asked = bit(Feature::POINT_LIGHTS) | bit(Feature::SAMPLER_RANDOM) | bit(Feature::BOTH_BRANCHES);
+  std::uint64_t all = 0;
+#define WHITTLE_ALL(name, number, text) all |= std::uint64_t{1} << (number);
+  WHITTLE_FEATURES(WHITTLE_ALL)
+#undef WHITTLE_ALL
+  const std::uint64_t searchesAlpha = all & ~bit(Feature::ALPHA_MASK);
+  for (const std::uint64_t bits : {all, searchesAlpha, all & ~bit(Feature::FILTERED_SHADOWS),
+                                   all & ~bit(Feature::MIRROR), all & ~bit(Feature::VERTEX_NORMALS)})
+    for (const auto& program :
+         kernelPrograms(SceneFeatures::ofBits(bits), plannedStages(SceneFeatures::ofBits(bits), 2, 16)))
+      asked |= program.features;
+  EXPECT_EQ(asked, all);
+}
+
+TEST(KernelPrograms, EveryPlannedStageIsInOne) {
+  const SceneFeatures all = SceneFeatures::ofBits(~std::uint64_t{0} >> 1);
+  auto stages = plannedStages(all, 2, 16);
+  std::vector<std::string> found;
+  for (const auto& program : kernelPrograms(all, stages)) {
+    for (const auto& kernel : program.kernels)
+      EXPECT_NE(program.source.find(" " + kernel + "("), std::string::npos) << kernel;
+    found.insert(found.end(), program.kernels.begin(), program.kernels.end());
+  }
+  std::sort(found.begin(), found.end());
+  std::sort(stages.begin(), stages.end());
+  EXPECT_EQ(found, stages);
+}
+
+/// Scenes that differ in how they are shaded share all other code.
+TEST(KernelPrograms, ShadingAloneAsksHowSurfacesLook) {
+  const std::uint64_t plain =
+      bit(Feature::PACKETS) | bit(Feature::TREE) | bit(Feature::LIGHTS) | bit(Feature::SHADOWS);
+  const std::uint64_t rich = plain | bit(Feature::TEXTURES) | bit(Feature::UV0) |
+                             bit(Feature::BASE_COLOR_TEXTURE) | bit(Feature::VERTEX_NORMALS) |
+                             bit(Feature::MIRROR) | bit(Feature::METAL) | bit(Feature::IMPULSES);
+  const auto stages = plannedStages(SceneFeatures::ofBits(rich), 1, 8);
+  const auto one = kernelPrograms(SceneFeatures::ofBits(plain), stages),
+             two = kernelPrograms(SceneFeatures::ofBits(rich), stages);
+  ASSERT_EQ(one.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(one[i].features == two[i].features, one[i].name != "shading") << one[i].name;
+}
+
+TEST(KernelPrograms, OthersAreCompiledBesideOnlyWhereThatTakesAWhile) {
+  Compute compute = openTestDevice();
+  const SceneFeatures features = SceneFeatures::ofBits(bit(Feature::PACKETS));
+  const auto programs = kernelPrograms(features, plannedStages(features, 0, 1));
+  const CompileTarget target{1024, 8};
+  compilePrograms(compute, programs, target);
+  int asked = 0;
+  const auto built = compilePrograms(compute, programs, target, [&] {
+    ++asked;
+    return [] {};
+  });
+  EXPECT_EQ(built.size(), programs.size());
+  if (!std::getenv("POCL_KERNEL_CACHE")) {
+    EXPECT_EQ(asked, 0) << "all of it was on disk";
+  }
+}
+
+}  // namespace
+}  // namespace whittle::test

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <string>
 #include <unordered_map>
 
 #include "kernels/shared/layout.h"

@@ -1,6 +1,7 @@
 // Which parts of a material show: follows kernels/lib/surfel.cl, surfels.cl and bsdf.cl.
 #include "render/material_use.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <type_traits>

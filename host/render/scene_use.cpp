@@ -8,8 +8,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "render/image_merge.h"
 #include "render/light_reach.h"
@@ -145,13 +148,25 @@ void keepImages(std::size_t imageCount, SceneUse& use) {
     }
 }
 
+/// Only lights that end somewhere ask where the triangles are; to the others they are anywhere.
+LitBounds boundsForLights(const Scene& scene, const Flags& lit) {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  const bool asked = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
+    return l.kind == LightKind::Spot || (l.kind == LightKind::Point && l.range < inf);
+  });
+  if (asked) return litBounds(scene, lit);
+  LitBounds bounds;
+  if (std::find(lit.begin(), lit.end(), 1) != lit.end()) bounds = {glm::vec3(-inf), glm::vec3(inf)};
+  return bounds;
+}
+
 void keepLights(const Scene& scene, SceneUse& use) {
   use.trimmed.lights = scene.lights.size();
   if (scene.lights.empty()) return;
   Flags lit(scene.materials.size());
   for (std::size_t i = 0; i < lit.size(); ++i)
     lit[i] = use.materialOf[i] != kNotUsed && !use.materials[use.materialOf[i]].unlit;
-  const LitBounds bounds = litBounds(scene, lit);
+  const LitBounds bounds = boundsForLights(scene, lit);
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const std::string reason = whyDark(scene.lights[i], bounds);
     if (reason.empty())

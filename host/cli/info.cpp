@@ -35,9 +35,10 @@ void runInfo(const InfoOptions& o) {
     if (!o.settings.device.empty()) throw;
     problem = e.what();
   }
-  const SceneFeatures features = plan ? plan->features : SceneFeatures::analyse(scene, o.settings, {});
-  const auto stages = plan ? plan->stages : plannedStages(features, scene.lights.size(), o.settings.bounces);
-  const InfoReport report{scene, notices, features, stages, plan, problem};
+  const SceneUse use = plan ? std::move(plan->use) : useOf(scene, o.settings);
+  const SceneFeatures features = plan ? plan->features : SceneFeatures::analyse(scene, use, o.settings, {});
+  const auto stages = plan ? plan->stages : plannedStages(features, use.lights.size(), o.settings.bounces);
+  const InfoReport report{scene, notices, features, use.trimmed, stages, plan, problem};
   if (o.json)
     fmt::print("{}\n",
                infoJson(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));

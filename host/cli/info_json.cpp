@@ -44,7 +44,7 @@ Json lightsJson(const Scene& scene) {
   return lights;
 }
 
-Json featuresJson(const SceneFeatures& features) {
+Json featuresJson(const SceneFeatures& features, const Trimmed& trimmed) {
   Json json{{"used", Json::array()}, {"leftOut", Json::array()}};
   for (const auto& line : features.lines()) {
     if (line.used)
@@ -52,6 +52,7 @@ Json featuresJson(const SceneFeatures& features) {
     else
       json["leftOut"].push_back({{"name", line.text}, {"reason", line.reason}});
   }
+  json["trimmed"] = trimmedToJson(trimmed);
   return json;
 }
 
@@ -77,7 +78,7 @@ Json infoJson(const InfoReport& r) {
       {"lights", lightsJson(scene)},
       {"cameras", camerasJson(scene)},
       {"background", {{"radiance", toJson(b.radiance)}, {"mapWidth", b.width}, {"mapHeight", b.height}}},
-      {"features", featuresJson(r.features)},
+      {"features", featuresJson(r.features, r.trimmed)},
       {"stages", r.stages}};
   json["device"] = r.plan ? Json(r.plan->device.name) : Json(nullptr);
   json["deviceProblem"] = r.plan ? Json(nullptr) : Json(r.planProblem);

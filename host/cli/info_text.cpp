@@ -95,11 +95,46 @@ std::string needs(const SceneFeatures& features) {
     if (line.used)
       used.push_back(line.text);
     else
-      leftOut += "  " + padded(line.text, 34) + "  " + wrapped(line.reason, 42, 38) + "\n";
+      leftOut += "  " + padded(line.text, 34) + "  " +
+                 wrapped(line.reason, 76 - std::max<std::size_t>(34, columnsOf(line.text)), 38) + "\n";
   }
   return "\nNeeded\n  " +
          wrapped(used.empty() ? "nothing" : fmt::format("{}", fmt::join(used, ", ")), 78, 2) +
          "\n\nLeft out\n" + (leftOut.empty() ? "  nothing\n" : leftOut);
+}
+
+/// "3 of 12 materials: 5 that no triangle has, 4 alike"; nothing where all of them go to the device.
+std::string trimmedLine(const Trimmed::Things& things, const char* what, const char* unused) {
+  std::vector<std::string> reasons;
+  if (things.unused > 0) reasons.push_back(formatInteger(things.unused) + unused);
+  if (things.alike > 0) reasons.push_back(fmt::format("{} like another", formatInteger(things.alike)));
+  if (reasons.empty()) return "";
+  return "  " +
+         wrapped(fmt::format("{} of {} {}: {}", formatInteger(things.unused + things.alike),
+                             formatInteger(things.all), what, fmt::join(reasons, ", ")),
+                 78, 4) +
+         "\n";
+}
+
+std::string trimmedText(const Trimmed& t) {
+  std::string out = trimmedLine(t.materials, "materials", " that no triangle has") +
+                    trimmedLine(t.images, "texture images", " that no material reads") +
+                    trimmedLine(t.vertices, "vertices", " that no triangle has");
+  if (t.needlessMasks > 0)
+    out += fmt::format("  {}\n", formatSome(t.needlessMasks, "alpha mask that cuts nothing out",
+                                            "alpha masks that cut nothing out"));
+  if (t.needlessBlends > 0)
+    out += fmt::format("  {}\n", formatSome(t.needlessBlends, "blended material that is opaque",
+                                            "blended materials that are opaque"));
+  constexpr std::size_t kShown = 20;
+  const auto& dark = t.droppedLights;
+  if (!dark.empty())
+    out += fmt::format("  {} of {}\n", formatInteger(dark.size()), formatSome(t.lights, "light", "lights"));
+  for (std::size_t i = 0; i < std::min(dark.size(), kShown); ++i)
+    out += entry(dark[i].index, dark[i].name, widestName(dark), dark[i].reason);
+  if (dark.size() > kShown)
+    out += fmt::format("    … and {} more (--json has them all)\n", formatInteger(dark.size() - kShown));
+  return "\nNot sent to the device\n" + (out.empty() ? "  nothing\n" : out);
 }
 
 std::string buffersText(const RenderPlan& plan) {
@@ -126,7 +161,7 @@ std::string buffersText(const RenderPlan& plan) {
 }  // namespace
 
 std::string infoText(const InfoReport& r) {
-  std::string out = r.scene.file + "\n\n" + contents(r.scene) + needs(r.features);
+  std::string out = r.scene.file + "\n\n" + contents(r.scene) + needs(r.features) + trimmedText(r.trimmed);
   out += "\nStages that will run\n  " + wrapped(fmt::format("{}", fmt::join(r.stages, ", ")), 78, 2) + "\n\n";
   if (r.plan) return out + buffersText(*r.plan);
   return out + "Buffers\n  " + wrapped("unknown: " + r.planProblem, 78, 2) + "\n";

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <string>
+#include <unordered_map>
 
 #include "kernels/shared/layout.h"
 
@@ -20,15 +22,16 @@ static_assert(sizeof(device::DeviceTexture) == 52);
 static_assert(sizeof(device::DeviceMaterial) == 112);
 static_assert(sizeof(device::DeviceCamera) == 128);
 
-/// Texture slots and texels of the images they use, shared where two slots read the same image.
+/// Texture slots and texels of the images they use, shared where two slots are the same or read the same
+/// image.
 class TextureAtlas {
  public:
-  explicit TextureAtlas(const Scene& scene) : scene_(scene) {}
+  TextureAtlas(const Scene& scene, const SceneUse& use) : scene_(scene), use_(use) {}
 
   /// Index of the slot on the device, -1 for an empty one.
   int add(const TextureSlot& slot) {
     if (!slot.used()) return -1;
-    const Image& image = scene_.images[static_cast<std::size_t>(slot.image)];
+    const Image& image = imageOf(slot.image);
     device::DeviceTexture t{};
     std::copy(slot.transform.begin(), slot.transform.end(), t.transform);
     t.firstTexel = firstTexel(slot.image);
@@ -38,18 +41,29 @@ class TextureAtlas {
     t.wrapT = static_cast<std::uint32_t>(slot.wrapT);
     t.nearest = slot.filter == Filter::Nearest;
     t.uvSet = static_cast<std::uint32_t>(slot.uvSet);
-    slots.push_back(t);
-    return static_cast<int>(slots.size()) - 1;
+    return indexOf(t);
   }
 
   std::vector<device::DeviceTexture> slots;
   std::vector<std::uint32_t> texels;
 
  private:
+  const Image& imageOf(int index) const {
+    return scene_.images[use_.images[static_cast<std::size_t>(index)]];
+  }
+
+  int indexOf(const device::DeviceTexture& t) {
+    const std::string bits(reinterpret_cast<const char*>(&t), sizeof(t));
+    const auto [at, isNew] = known_.try_emplace(bits, static_cast<int>(slots.size()));
+    if (!isNew && use_.sharesSlots) return at->second;
+    slots.push_back(t);
+    return static_cast<int>(slots.size()) - 1;
+  }
+
   std::uint32_t firstTexel(int index) {
     const auto [at, isNew] = first_.try_emplace(index, static_cast<std::uint32_t>(texels.size()));
     if (isNew) {
-      const auto& bytes = scene_.images[static_cast<std::size_t>(index)].texels;
+      const auto& bytes = imageOf(index).texels;
       const std::size_t begin = texels.size();
       texels.resize(begin + bytes.size() / 4);
       std::memcpy(texels.data() + begin, bytes.data(), bytes.size() / 4 * 4);
@@ -58,7 +72,9 @@ class TextureAtlas {
   }
 
   const Scene& scene_;
-  std::map<int, std::uint32_t> first_;
+  const SceneUse& use_;
+  std::map<int, std::uint32_t> first_;          ///< texel, by image
+  std::unordered_map<std::string, int> known_;  ///< slots by their bits
 };
 
 static_assert(static_cast<int>(Wrap::Repeat) == WRAP_REPEAT && static_cast<int>(Wrap::Clamp) == WRAP_CLAMP &&
@@ -121,15 +137,16 @@ std::vector<glm::uvec3> hittableCorners(const Scene& scene) {
 }
 
 /// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
-std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene, const std::vector<glm::uvec3>& corners,
+std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene, const SceneUse& use,
+                                                  const std::vector<glm::uvec3>& corners,
                                                   const std::vector<std::uint32_t>& order) {
   std::vector<device::DeviceTriangle> out(order.size() + 1);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const std::uint32_t material = scene.triangles[order[i]].material;
+    const std::uint32_t material = use.materialOf[scene.triangles[order[i]].material];
     for (int k = 0; k < 3; ++k) copy3(out[i].v[k], scene.positions[corners[order[i]][k]]);
     out[i].primitive = order[i];
     out[i].material = material;
-    out[i].flags = triangleFlags(scene.materials[material]);
+    out[i].flags = triangleFlags(use.materials[material]);
   }
   out.back().primitive = 0xffffffffU;
   return out;
@@ -154,13 +171,14 @@ std::vector<float> srgbTable() {
   return table;
 }
 
-std::vector<device::DeviceLight> lightsToDevice(const Scene& scene) {
+std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const SceneUse& use) {
   std::vector<device::DeviceLight> out;
   const auto versine = [](double angle) {
     const double s = std::sin(0.5 * angle);
     return static_cast<float>(2.0 * s * s);
   };
-  for (const Light& l : scene.lights) {
+  for (const std::uint32_t i : use.lights) {
+    const Light& l = scene.lights[i];
     device::DeviceLight d{};
     copy3(d.intensity, l.intensity);
     copy3(d.position, l.position);
@@ -173,6 +191,32 @@ std::vector<device::DeviceLight> lightsToDevice(const Scene& scene) {
     out.push_back(d);
   }
   return out;
+}
+
+/// An attribute of the vertices that are used, in their order on the device.
+template <typename T>
+Buffer uploadVertices(Compute& compute, const std::string& name, const std::vector<T>& all,
+                      const SceneUse& use) {
+  if (use.vertexOf.empty() || all.empty()) return compute.upload(name, all);
+  std::vector<T> used(use.vertexCount);
+  for (std::size_t v = 0; v < all.size(); ++v)
+    if (use.vertexOf[v] != kNotUsed) used[use.vertexOf[v]] = all[v];
+  return compute.upload(name, used);
+}
+
+/// Vertices of every triangle in leaf order, and of the degenerate one.
+std::vector<std::uint32_t> cornersOnDevice(const Scene& scene, const SceneUse& use,
+                                           const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> corners;
+  corners.reserve(order.size() * 3 + 3);
+  for (const std::uint32_t i : order) {
+    const Triangle& t = scene.triangles[i];
+    corners.insert(corners.end(), {t.v0, t.v1, t.v2});
+  }
+  if (!use.vertexOf.empty())
+    for (std::uint32_t& v : corners) v = use.vertexOf[v];
+  corners.resize(corners.size() + 3);
+  return corners;
 }
 
 std::string groupOf(const std::string& name) {
@@ -189,7 +233,7 @@ void DeviceScene::report(std::vector<BufferStats>& out) const {
     if (*b) out.push_back({b->name, groupOf(b->name), b->bytes});
 }
 
-DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tree,
+DeviceScene uploadScene(Compute& compute, const Scene& scene, const SceneUse& use, const TriTree& tree,
                         const SceneFeatures& features) {
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
@@ -204,25 +248,20 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tre
     d.wideNodes = compute.upload("wideNodes", wide.nodes);
     d.leaves = compute.upload("leaves", wide.corners);
   }
-  d.triangles = compute.upload("triangles", leafTriangles(scene, hittable, tree.order));
-  std::vector<std::uint32_t> corners;
-  corners.reserve(tree.order.size() * 3 + 3);
-  for (const std::uint32_t i : tree.order) {
-    const Triangle& t = scene.triangles[i];
-    corners.insert(corners.end(), {t.v0, t.v1, t.v2});
-  }
+  d.triangles = compute.upload("triangles", leafTriangles(scene, use, hittable, tree.order));
   const bool interpolates = features.has(Feature::VERTEX_NORMALS) || features.has(Feature::TEXTURES) ||
                             features.has(Feature::VERTEX_COLORS);
-  corners.resize(corners.size() + 3);  // of the degenerate triangle
-  if (interpolates) d.corners = compute.upload("corners", corners);
-  if (features.has(Feature::VERTEX_NORMALS)) d.normals = compute.upload("normals", scene.normals);
-  if (features.has(Feature::NORMAL_TEXTURE)) d.tangents = compute.upload("tangents", scene.tangents);
-  if (features.has(Feature::UV0)) d.uv0 = compute.upload("uv0", scene.uv0);
-  if (features.has(Feature::UV1)) d.uv1 = compute.upload("uv1", scene.uv1);
-  if (features.has(Feature::VERTEX_COLORS)) d.colors = compute.upload("colors", scene.colors);
-  TextureAtlas atlas(scene);
+  if (interpolates) d.corners = compute.upload("corners", cornersOnDevice(scene, use, tree.order));
+  if (features.has(Feature::VERTEX_NORMALS))
+    d.normals = uploadVertices(compute, "normals", scene.normals, use);
+  if (features.has(Feature::NORMAL_TEXTURE))
+    d.tangents = uploadVertices(compute, "tangents", scene.tangents, use);
+  if (features.has(Feature::UV0)) d.uv0 = uploadVertices(compute, "uv0", scene.uv0, use);
+  if (features.has(Feature::UV1)) d.uv1 = uploadVertices(compute, "uv1", scene.uv1, use);
+  if (features.has(Feature::VERTEX_COLORS)) d.colors = uploadVertices(compute, "colors", scene.colors, use);
+  TextureAtlas atlas(scene, use);
   std::vector<device::DeviceMaterial> materials;
-  for (const auto& m : scene.materials) materials.push_back(toDevice(m, atlas));
+  for (const auto& m : use.materials) materials.push_back(toDevice(m, atlas));
   if (materials.empty()) materials.push_back(toDevice(Material{}, atlas));
   d.materials = compute.upload("materials", materials);
   if (features.has(Feature::TEXTURES)) {
@@ -230,7 +269,7 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tre
     d.texels = compute.upload("texels", atlas.texels);
     d.linearFromSrgb = compute.upload("linearFromSrgb", srgbTable());
   }
-  const auto lights = lightsToDevice(scene);
+  const auto lights = lightsToDevice(scene, use);
   d.lightCount = static_cast<std::uint32_t>(lights.size());
   d.lights = compute.upload("lights", lights);
   if (features.has(Feature::BACKGROUND_MAP))

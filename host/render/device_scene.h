@@ -26,8 +26,13 @@ struct DeviceScene {
   void report(std::vector<BufferStats>& out) const;
 };
 
-/// Uploads what `features` needs. Throws ClError naming the buffer that does not fit.
-DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tree,
+/// Uploads of `use` what `features` needs. Throws ClError naming the buffer that does not fit.
+DeviceScene uploadScene(Compute& compute, const Scene& scene, const SceneUse& use, const TriTree& tree,
                         const SceneFeatures& features);
+/// Of the whole scene, for features that nothing analysed.
+inline DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tree,
+                               const SceneFeatures& features) {
+  return uploadScene(compute, scene, wholeScene(scene), tree, features);
+}
 
 }  // namespace whittle

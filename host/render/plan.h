@@ -14,6 +14,7 @@ namespace whittle {
 
 struct RenderPlan {
   SceneFeatures features;
+  SceneUse use;                      ///< what goes to the device
   std::vector<std::string> stages;   ///< kernels, in the order of their first launch
   std::vector<BufferStats> buffers;  ///< as allocated: real sizes
   DeviceInfo device;
@@ -23,7 +24,7 @@ struct RenderPlan {
 /// Builds the tree, opens the device and allocates what a render would. Throws what render throws.
 RenderPlan planRender(const Scene& scene, const Settings& settings);
 
-/// The kernels that Wavefront may launch for these features, in order.
+/// The kernels that Wavefront may launch for these features and lights on the device, in order.
 std::vector<std::string> plannedStages(const SceneFeatures& features, std::size_t lights, int bounces);
 
 }  // namespace whittle

@@ -87,7 +87,10 @@ class Session {
     if (settings_.threads > 0)
       tbbLimit_.emplace(tbb::global_control::max_allowed_parallelism, settings_.threads);
     const bool cpu = compute_->device().kind == "cpu";
-    features_ = SceneFeatures::analyse(scene_, settings_, {cpu}).with(hooks_.alsoFeatures);
+    const auto deciding = Clock::now();
+    use_ = useOf(scene_, settings_);
+    tracePhase("decide what is needed", deciding);
+    features_ = SceneFeatures::analyse(scene_, use_, settings_, {cpu}).with(hooks_.alsoFeatures);
     compactChunk_ = cpu ? 1024 : 32;
     workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : defaultWorkGroup(features_);
     if (static_cast<std::uint64_t>(workGroup_) > compute_->device().maxWorkGroup)
@@ -107,8 +110,12 @@ class Session {
     queues_->reserve(features_.has(Feature::IMPULSES) ? 2 : 1);
     reportBuffers();
     usedSettings();
-    return {features_, plannedStages(features_, scene_.lights.size(), settings_.bounces), stats_.buffers,
-            compute_->device(), stats_.settings};
+    return {features_,
+            std::move(use_),
+            plannedStages(features_, deviceScene_.lightCount, settings_.bounces),
+            stats_.buffers,
+            compute_->device(),
+            stats_.settings};
   }
 
  private:
@@ -123,7 +130,7 @@ class Session {
     say("compiling kernels");
     auto programs = std::async(std::launch::async, [this] {
       const auto start = Clock::now();
-      const auto stages = plannedStages(features_, scene_.lights.size(), settings_.bounces);
+      const auto stages = plannedStages(features_, use_.lights.size(), settings_.bounces);
       const CompileTarget target{compactChunk_, workGroup_};
       CompileBeside beside;
       if (!hooks_.compiler.empty())
@@ -179,7 +186,7 @@ class Session {
     stats_.time.build = secondsSince(start);
     tracePhase("build tree", start);
     start = Clock::now();
-    deviceScene_ = uploadScene(*compute_, scene_, tree, features_);
+    deviceScene_ = uploadScene(*compute_, scene_, use_, tree, features_);
     queues_.emplace(*compute_, features_, roundedCapacity(settings_), compactChunk_);
     stats_.time.upload = film + secondsSince(start);
     tracePhase("upload", start);
@@ -295,6 +302,7 @@ class Session {
       else
         stats_.featuresLeftOut.emplace_back(line.text, line.reason);
     }
+    stats_.trimmed = use_.trimmed;
     const RayTally& t = wavefront_->tally();
     stats_.rays = {t.primary, t.impulse, t.shadow};
     stats_.dropped = t.produced - t.finished;
@@ -321,6 +329,7 @@ class Session {
   const RenderHooks& hooks_;
   Compute::Memory memory_;
   std::size_t cameraIndex_ = 0;
+  SceneUse use_;
   SceneFeatures features_;
   std::uint32_t compactChunk_ = 0;
   int workGroup_ = 0;

@@ -6,38 +6,34 @@
 #include <cmath>
 #include <functional>
 
+#include "render/material_use.h"
+
 namespace whittle {
 namespace {
 
 /// The scene seen through the questions that features ask.
 class Needs {
  public:
-  Needs(const Scene& ofScene, const Settings& withSettings, const DeviceTraits& onDevice)
-      : scene(ofScene),
-        settings(withSettings),
-        traits(onDevice),
-        materialUsed_(ofScene.materials.size(), false) {
-    for (const auto& t : scene.triangles) materialUsed_[t.material] = true;
-  }
+  Needs(const Scene& ofScene, const SceneUse& ofUse, const Settings& withSettings,
+        const DeviceTraits& onDevice)
+      : scene(ofScene), use(ofUse), settings(withSettings), traits(onDevice) {}
 
   const Scene& scene;
+  const SceneUse& use;  ///< what goes to the device
   const Settings& settings;
   const DeviceTraits& traits;
 
   bool anyMaterial(const std::function<bool(const Material&)>& wanted) const {
-    for (std::size_t i = 0; i < scene.materials.size(); ++i)
-      if (materialUsed_[i] && wanted(scene.materials[i])) return true;
-    return false;
+    return std::any_of(use.materials.begin(), use.materials.end(), wanted);
   }
   bool anyLight(const std::function<bool(const Light&)>& wanted) const {
-    return std::any_of(scene.lights.begin(), scene.lights.end(), wanted);
+    return std::any_of(use.lights.begin(), use.lights.end(),
+                       [&](std::uint32_t i) { return wanted(scene.lights[i]); });
   }
   bool anySlot(const std::function<bool(const TextureSlot&)>& wanted) const {
     return anyMaterial([&](const Material& m) {
-      const TextureSlot* slots[] = {
-          &m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,      &m.emissionTexture,
-          &m.specularTexture,  &m.specularColorTexture,     &m.transmissionTexture};
-      return std::any_of(std::begin(slots), std::end(slots),
+      const auto slots = readSlots(m);
+      return std::any_of(slots.begin(), slots.end(),
                          [&](const TextureSlot* s) { return s->used() && wanted(*s); });
     });
   }
@@ -56,7 +52,7 @@ class Needs {
     return smooth(m) && (m.metallic > 0.0F || (m.specular > 0.0F && m.ior != 1.0F));
   }
 
-  bool lit() const { return !scene.lights.empty(); }
+  bool lit() const { return !use.lights.empty(); }
   bool mirrors() const {
     return anyMaterial([this](const Material& m) { return reflects(m); });
   }
@@ -78,9 +74,6 @@ class Needs {
   bool packets() const {
     return settings.lanes == Lanes::Sixteen || (settings.lanes == Lanes::Auto && traits.cpu);
   }
-
- private:
-  std::vector<bool> materialUsed_;  ///< some triangle has it
 };
 
 struct Question {
@@ -129,7 +122,8 @@ std::vector<Question> lightQuestions(const Needs& n) {
   const bool filters = n.anyMaterial(Needs::transmits) || n.anyMaterial(Needs::blends);
   const glm::vec3 b = n.scene.background.radiance;
   return {
-      {F::LIGHTS, n.lit(), "the scene has no lights"},
+      {F::LIGHTS, n.lit(),
+       n.scene.lights.empty() ? "the scene has no lights" : "no light of the scene reaches anything"},
       {F::SHADOWS, n.shadows(), n.settings.shadows ? "no light casts shadows" : "shadows are switched off",
        !n.settings.shadows},
       {F::FILTERED_SHADOWS, n.shadows() && filters, "no surface that casts a shadow lets light through"},
@@ -167,8 +161,9 @@ std::vector<Question> impulseQuestions(const Needs& n) {
        n.anyMaterial([](const Material& m) { return m.volume && m.sigma_a != glm::vec3(0.0F); }),
        "no volume absorbs"},
       {F::ALPHA_MASK, n.anyMaterial([](const Material& m) { return m.alphaMode == AlphaMode::Mask; }),
-       "no material is masked"},
-      {F::ALPHA_BLEND, n.anyMaterial(Needs::blends), "no material is blended"},
+       n.use.trimmed.needlessMasks > 0 ? "masks cut nothing out" : "no material is masked"},
+      {F::ALPHA_BLEND, n.anyMaterial(Needs::blends),
+       n.use.trimmed.needlessBlends > 0 ? "blended materials are opaque" : "no material is blended"},
       {F::SPECULAR_EXTENSION, n.anyMaterial([](const Material& m) {
          return m.specular != 1.0F || m.specularColor != glm::vec3(1.0F) || m.specularTexture.used() ||
                 m.specularColorTexture.used();
@@ -212,9 +207,9 @@ SceneFeatures SceneFeatures::with(std::uint64_t bits) const {
   return more;
 }
 
-SceneFeatures SceneFeatures::analyse(const Scene& scene, const Settings& settings,
+SceneFeatures SceneFeatures::analyse(const Scene& scene, const SceneUse& use, const Settings& settings,
                                      const DeviceTraits& traits) {
-  const Needs needs(scene, settings, traits);
+  const Needs needs(scene, use, settings, traits);
   std::vector<Question> questions;
   for (auto part :
        {geometryQuestions(needs), lightQuestions(needs), impulseQuestions(needs), cameraQuestions(needs)})

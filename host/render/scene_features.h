@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/shared/features.h"
+#include "render/scene_use.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
@@ -47,9 +48,14 @@ class SceneFeatures {
   }
   /// These and those of `bits` as well, needed or not.
   SceneFeatures with(std::uint64_t bits) const;
-  /// Derives the features. settings.keepAllFeatures switches everything on that does not contradict the
-  /// settings.
-  static SceneFeatures analyse(const Scene& scene, const Settings& settings, const DeviceTraits& traits);
+  /// Derives the features of what goes to the device. settings.keepAllFeatures switches everything on that
+  /// does not contradict the settings.
+  static SceneFeatures analyse(const Scene& scene, const SceneUse& use, const Settings& settings,
+                               const DeviceTraits& traits);
+  /// The same where nothing else asks what goes to the device.
+  static SceneFeatures analyse(const Scene& scene, const Settings& settings, const DeviceTraits& traits) {
+    return analyse(scene, useOf(scene, settings), settings, traits);
+  }
 
  private:
   std::uint64_t bits_ = 0;

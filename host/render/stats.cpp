@@ -74,6 +74,7 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
   json["features"]["leftOut"] = nlohmann::ordered_json::array();
   for (const auto& [name, reason] : s.featuresLeftOut)
     json["features"]["leftOut"].push_back({{"name", name}, {"reason", reason}});
+  json["features"]["trimmed"] = trimmedToJson(s.trimmed);
   json["rays"] = {{"primary", s.rays.primary},
                   {"impulse", s.rays.impulse},
                   {"shadow", s.rays.shadow},

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/trimmed.h"
 #include "scene/settings.h"
 
 namespace whittle {
@@ -46,6 +47,7 @@ struct Stats {
   } device;
   std::vector<std::string> featuresUsed;
   std::vector<std::pair<std::string, std::string>> featuresLeftOut;  ///< name, reason
+  Trimmed trimmed;                                                   ///< what of the scene stays on the host
   struct {
     std::uint64_t primary = 0, impulse = 0, shadow = 0;
     std::uint64_t total() const { return primary + impulse + shadow; }

@@ -36,7 +36,7 @@ INLINE int wrapTexel(int i, int size, uint mode) {
 INLINE float4 fetchTexel(const SceneView* scene, __global const DeviceTexture* texture, int x, int y, int srgb) {
   const uint word = scene->texels[texture->firstTexel + (uint)y * (uint)texture->width + (uint)x];
   const uint4 c = (uint4)(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u, word >> 24);
-  const float a = (float)c.w / 255.0f;
+  const float a = c.w == 255u ? 1.0f : (float)c.w / 255.0f;  // a division may be off by an ulp: opaque is opaque
   if (srgb)
     return (float4)(scene->linearFromSrgb[c.x], scene->linearFromSrgb[c.y], scene->linearFromSrgb[c.z], a);
   return (float4)((float)c.x / 255.0f, (float)c.y / 255.0f, (float)c.z / 255.0f, a);

@@ -45,6 +45,7 @@ INLINE Texels fetchTexels(const SceneView* scene, const Records* texture, Mask x
   for (uint n = 0; n < 4; ++n) {
     const Natural byte = (word >> (8 * n)) & 255u;
     t.c[n] = srgb && n < 3 ? gather(scene->linearFromSrgb, byte) : TO_REAL(byte) / 255.0f;
+    if (n == 3) t.c[n] = byte == 255u ? (Real)(1.0f) : t.c[n];  // as fetchTexel
   }
   return t;
 }

@@ -63,10 +63,11 @@ TEST(AskedFeatures, AFeatureThatDoesNotExistIsAnError) {
   EXPECT_THROW(askedFeatures("#if HAS(NO_SUCH)\n#endif\n", 0), std::runtime_error);
 }
 
-/// Point lights are what is left of the kinds, random places what is left of the samplers; the host alone asks for
-/// BOTH_BRANCHES.
+/// Point lights are what is left of the kinds, random places what is left of the samplers; the host alone
+/// asks for BOTH_BRANCHES.
 TEST(KernelPrograms, EveryFeatureIsAskedForBySomeProgram) {
-  std::uint64_t asked = bit(Feature::POINT_LIGHTS) | bit(Feature::SAMPLER_RANDOM) | bit(Feature::BOTH_BRANCHES);
+  std::uint64_t asked =
+      bit(Feature::POINT_LIGHTS) | bit(Feature::SAMPLER_RANDOM) | bit(Feature::BOTH_BRANCHES);
   std::uint64_t all = 0;
 #define WHITTLE_ALL(name, number, text) all |= std::uint64_t{1} << (number);
   WHITTLE_FEATURES(WHITTLE_ALL)

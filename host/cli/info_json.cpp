@@ -83,6 +83,7 @@ Json infoJson(const InfoReport& r) {
   json["device"] = r.plan ? Json(r.plan->device.name) : Json(nullptr);
   json["deviceProblem"] = r.plan ? Json(nullptr) : Json(r.planProblem);
   json["buffers"] = r.plan ? buffersJson(*r.plan) : Json(nullptr);
+  json["everythingBytes"] = r.plan ? Json(r.plan->everythingBytes) : Json(nullptr);
   json["warnings"] = r.notices.warnings;
   json["notes"] = r.notices.notes;
   return json;

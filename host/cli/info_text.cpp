@@ -155,7 +155,13 @@ std::string buffersText(const RenderPlan& plan) {
       out += fmt::format("  {:<10} {:>8}  {}\n", group, formatBytes(bytes),
                          wrapped(fmt::format("{}", fmt::join(names, ", ")), 57, 23));
   }
-  return out + fmt::format("  {:<10} {:>8}\n", "total", formatBytes(total));
+  out += fmt::format("  {:<10} {:>8}\n", "total", formatBytes(total));
+  if (plan.everythingBytes <= total) return out;
+  const auto all = static_cast<double>(plan.everythingBytes);
+  return out + fmt::format("  {:<10} {:>8}  {:.0f} % of the {} that everything would take\n", "saved",
+                           formatBytes(plan.everythingBytes - total),
+                           100.0 * (all - static_cast<double>(total)) / all,
+                           formatBytes(plan.everythingBytes));
 }
 
 }  // namespace

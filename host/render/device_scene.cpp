@@ -193,11 +193,14 @@ std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const SceneU
   return out;
 }
 
-/// An attribute of the vertices that are used, in their order on the device.
+/// An attribute of the vertices that are used, in their order on the device. One that is kept though the
+/// scene has none is 0 everywhere, which is as good as none: a renderer that leaves nothing out has one form
+/// of vertex.
 template <typename T>
 Buffer uploadVertices(Compute& compute, const std::string& name, const std::vector<T>& all,
                       const SceneUse& use) {
-  if (use.vertexOf.empty() || all.empty()) return compute.upload(name, all);
+  if (all.empty()) return compute.upload(name, std::vector<T>(use.vertexCount, T(0)));
+  if (use.vertexOf.empty()) return compute.upload(name, all);
   std::vector<T> used(use.vertexCount);
   for (std::size_t v = 0; v < all.size(); ++v)
     if (use.vertexOf[v] != kNotUsed) used[use.vertexOf[v]] = all[v];
@@ -258,7 +261,8 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const SceneUse& us
     d.tangents = uploadVertices(compute, "tangents", scene.tangents, use);
   if (features.has(Feature::UV0)) d.uv0 = uploadVertices(compute, "uv0", scene.uv0, use);
   if (features.has(Feature::UV1)) d.uv1 = uploadVertices(compute, "uv1", scene.uv1, use);
-  if (features.has(Feature::VERTEX_COLORS)) d.colors = uploadVertices(compute, "colors", scene.colors, use);
+  if (features.has(Feature::VERTEX_COLORS))
+    d.colors = scene.colors.empty() ? Buffer{} : uploadVertices(compute, "colors", scene.colors, use);
   TextureAtlas atlas(scene, use);
   std::vector<device::DeviceMaterial> materials;
   for (const auto& m : use.materials) materials.push_back(toDevice(m, atlas));

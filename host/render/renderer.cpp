@@ -90,7 +90,7 @@ class Session {
     const auto deciding = Clock::now();
     use_ = useOf(scene_, settings_);
     tracePhase("decide what is needed", deciding);
-    features_ = SceneFeatures::analyse(scene_, use_, settings_, {cpu}).with(hooks_.alsoFeatures);
+    features_ = SceneFeatures::analyse(scene_, use_, settings_, {cpu});
     compactChunk_ = cpu ? 1024 : 32;
     workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : defaultWorkGroup(features_);
     if (static_cast<std::uint64_t>(workGroup_) > compute_->device().maxWorkGroup)
@@ -106,19 +106,41 @@ class Session {
 
   /// Sizes of everything; needs a session with Memory::SizesOnly.
   RenderPlan plan() {
-    allocate();
-    queues_->reserve(features_.has(Feature::IMPULSES) ? 2 : 1);
+    const TriTree tree = allocate();
+    queues_->reserve(usualQueues(features_));
     reportBuffers();
     usedSettings();
     return {features_,
             std::move(use_),
             plannedStages(features_, deviceScene_.lightCount, settings_.bounces),
             stats_.buffers,
+            bytesOfEverything(tree),
             compute_->device(),
             stats_.settings};
   }
 
  private:
+  /// Ray queues of a picture whose queues are never cut.
+  static std::size_t usualQueues(const SceneFeatures& features) {
+    return features.has(Feature::IMPULSES) ? 2 : 1;
+  }
+
+  /// What all buffers would take if nothing were left out.
+  std::uint64_t bytesOfEverything(const TriTree& tree) {
+    Settings all = settings_;
+    all.keepAllFeatures = true;
+    const SceneUse whole = wholeScene(scene_);
+    const auto features = SceneFeatures::analyse(scene_, whole, all, {compute_->device().kind == "cpu"});
+    std::vector<BufferStats> buffers;
+    uploadScene(*compute_, scene_, whole, tree, features).report(buffers);
+    RayQueues queues(*compute_, features, queues_->capacity(), compactChunk_);
+    queues.reserve(usualQueues(features));
+    queues.report(buffers);
+    std::uint64_t bytes = pixelOrder_.bytes + film_.bytes + aovs_.bytes;
+    for (const auto& b : buffers) bytes += b.bytes;
+    return bytes;
+  }
+
   void say(const std::string& phase) const {
     if (hooks_.phase) hooks_.phase(phase);
   }
@@ -177,12 +199,13 @@ class Session {
     compute_->fillZero(film_);
   }
 
-  void allocate() {
+  /// Everything but the kernels; returns the tree.
+  TriTree allocate() {
     auto start = Clock::now();
     allocateFilm();
     const double film = secondsSince(start);
     start = Clock::now();
-    const TriTree tree = buildTree(scene_, features_.has(Feature::TREE));
+    TriTree tree = buildTree(scene_, features_.has(Feature::TREE));
     stats_.time.build = secondsSince(start);
     tracePhase("build tree", start);
     start = Clock::now();
@@ -190,6 +213,7 @@ class Session {
     queues_.emplace(*compute_, features_, roundedCapacity(settings_), compactChunk_);
     stats_.time.upload = film + secondsSince(start);
     tracePhase("upload", start);
+    return tree;
   }
 
   /// Samples of the next pass: as many as there are so far, as long as they fit into the time that is left;

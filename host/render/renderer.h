@@ -35,7 +35,6 @@ struct RenderHooks {
   std::optional<std::filesystem::path> kernelFolder;    ///< kernels from here instead of the binary
   const FloatImage* reference =
       nullptr;  ///< of the picture's size: each look at the film says how far it is from this
-  std::uint64_t alsoFeatures = 0;  ///< bits compiled, allocated and run though nothing needs them: for tests
   /// The `whittle` binary, to compile kernels with a second process (compilerProcessMain); empty: this one
   /// does it all.
   std::filesystem::path compiler;

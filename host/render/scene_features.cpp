@@ -197,14 +197,22 @@ std::vector<Question> cameraQuestions(const Needs& n) {
 
 }  // namespace
 
-SceneFeatures SceneFeatures::with(std::uint64_t bits) const {
-  SceneFeatures more = *this;
-  more.bits_ |= bits;
-  for (auto& line : more.lines_) {
-    line.used = more.has(line.feature);
-    if (line.used) line.reason.clear();
+const char* featureText(Feature feature) {
+  switch (feature) {
+#define WHITTLE_TEXT(name, bit, words) \
+  case Feature::name:                  \
+    return words;
+    WHITTLE_FEATURES(WHITTLE_TEXT)
+#undef WHITTLE_TEXT
   }
-  return more;
+  return "";
+}
+
+const std::vector<Feature>& allFeatures() {
+#define WHITTLE_LISTED(name, bit, words) Feature::name,
+  static const std::vector<Feature> all{WHITTLE_FEATURES(WHITTLE_LISTED)};
+#undef WHITTLE_LISTED
+  return all;
 }
 
 SceneFeatures SceneFeatures::analyse(const Scene& scene, const SceneUse& use, const Settings& settings,
@@ -216,20 +224,11 @@ SceneFeatures SceneFeatures::analyse(const Scene& scene, const SceneUse& use, co
     questions.insert(questions.end(), part.begin(), part.end());
 
   SceneFeatures features;
-  const auto text = [](Feature f) {
-    switch (f) {
-#define WHITTLE_TEXT(name, bit, words) \
-  case Feature::name:                  \
-    return words;
-      WHITTLE_FEATURES(WHITTLE_TEXT)
-#undef WHITTLE_TEXT
-    }
-    return "";
-  };
   for (const auto& q : questions) {
-    const bool used = q.used || (settings.keepAllFeatures && !q.settingDecides);
+    const bool kept = (settings.keepFeatures >> static_cast<int>(q.feature)) & 1U;
+    const bool used = q.used || kept || (settings.keepAllFeatures && !q.settingDecides);
     if (used) features.bits_ |= std::uint64_t{1} << static_cast<int>(q.feature);
-    features.lines_.push_back({q.feature, text(q.feature), used, used ? "" : q.reason});
+    features.lines_.push_back({q.feature, featureText(q.feature), used, used ? "" : q.reason});
   }
   std::sort(features.lines_.begin(), features.lines_.end(), [](const FeatureLine& a, const FeatureLine& b) {
     return static_cast<int>(a.feature) < static_cast<int>(b.feature);

@@ -20,6 +20,11 @@ enum class Feature : int {
 #undef WHITTLE_ENUM
 };
 
+/// What a person calls it.
+const char* featureText(Feature feature);
+/// In the order of their bits.
+const std::vector<Feature>& allFeatures();
+
 /// What only the device decides.
 struct DeviceTraits {
   bool cpu = true;  ///< packets of sixteen suit its vector units
@@ -46,8 +51,6 @@ class SceneFeatures {
     features.bits_ = bits;
     return features;
   }
-  /// These and those of `bits` as well, needed or not.
-  SceneFeatures with(std::uint64_t bits) const;
   /// Derives the features of what goes to the device. settings.keepAllFeatures switches everything on that
   /// does not contradict the settings.
   static SceneFeatures analyse(const Scene& scene, const SceneUse& use, const Settings& settings,

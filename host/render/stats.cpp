@@ -1,6 +1,8 @@
 // Statistics as JSON; the names are a contract with scripts.
 #include "render/stats.h"
 
+#include "render/scene_features.h"
+
 namespace whittle {
 
 const char* toString(Search search) {
@@ -13,6 +15,17 @@ const char* toString(ImpulseMode mode) { return mode == ImpulseMode::All ? "all"
 const char* toString(Lanes lanes) {
   return lanes == Lanes::Auto ? "auto" : (lanes == Lanes::One ? "1" : "16");
 }
+
+namespace {
+
+std::vector<std::string> keptFeatures(const Settings& s) {
+  std::vector<std::string> names;
+  for (const Feature f : allFeatures())
+    if ((s.keepFeatures >> static_cast<int>(f)) & 1U) names.emplace_back(featureText(f));
+  return names;
+}
+
+}  // namespace
 
 nlohmann::ordered_json settingsToJson(const Settings& s) {
   return {{"width", s.width},
@@ -34,6 +47,7 @@ nlohmann::ordered_json settingsToJson(const Settings& s) {
           {"bump", s.bump ? nlohmann::ordered_json(*s.bump) : nlohmann::ordered_json(nullptr)},
           {"mirrorRoughness", s.mirrorRoughness},
           {"keepAllFeatures", s.keepAllFeatures},
+          {"keepFeatures", keptFeatures(s)},
           {"targetError", s.targetError},
           {"timeLimit", s.timeLimit}};
 }

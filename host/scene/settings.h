@@ -33,6 +33,7 @@ struct Settings {
   std::optional<float> bump;     ///< metres; unset: derived from the scene at each hit
   float mirrorRoughness = 0.2F;  ///< a surface smoother than this reflects and refracts as a mirror
   bool keepAllFeatures = false;
+  std::uint64_t keepFeatures = 0;  ///< bits of kernels/shared/features.h that are kept, needed or not
   double timeLimit = 0.0;    ///< seconds of rendering; no pass starts that would end later; 0: none
   double targetError = 0.0;  ///< stop once the estimated RMSE of the picture is below; 0: never
   bool aovs = false;         ///< keep depth, normal, albedo and primitive of each pixel's first sample

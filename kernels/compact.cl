@@ -57,7 +57,7 @@ __kernel void compact_impulse(const uint first, const uint count, const uint cap
   const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
   uint out = offsets[CHUNKS(count) + chunk];
   for (uint i = begin; i < end; ++i) {
-    for (uint k = 0; k < 2; ++k) {
+    for (uint k = 0; k < IMPULSES_OF_HIT; ++k) {
       if (!(flags[i] & (ENTRY_IMPULSE0 << k))) continue;
       for (uint plane = 0; plane < IMPULSE_PLANES; ++plane)
         next[(size_t)plane * capacity + out] = impulses[(size_t)(k * IMPULSE_PLANES + plane) * capacity + i];

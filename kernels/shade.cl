@@ -109,7 +109,7 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
 #endif
 
 #if HAS(IMPULSES)
-/// Stores impulse k of the entries from i where it carries anything; returns its flags.
+/// Stores impulse k of the entries from i, where it carries anything, in the k-th set of planes; returns its flags.
 INLINE Natural storeImpulse(const Surfel* s, const Impulse* impulse, Mask hit, Real3 throughput, uint k, uint i, uint capacity,
                             __global float* impulses) {
   const Real3 carried = mul3(throughput, impulse->magnitude);
@@ -133,6 +133,17 @@ INLINE void chooseOne(Impulse* first, Impulse* second, Real u) {
   const Mask one = u < p;
   first->magnitude = choose3(any, choose3(one, over3(first->magnitude, p), zero), first->magnitude);
   second->magnitude = choose3(any, choose3(one, zero, over3(second->magnitude, 1.0f - p)), second->magnitude);
+}
+#endif
+
+#if HAS(IMPULSES) && !HAS(BOTH_BRANCHES)
+/// Where no surface sends out two impulses: the one there is.
+INLINE Impulse existing(const Impulse* first, const Impulse* second) {
+  const Mask isSecond = somePositive(second->magnitude);
+  Impulse only;
+  only.w_i = choose3(isSecond, second->w_i, first->w_i);
+  only.magnitude = choose3(isSecond, second->magnitude, first->magnitude);
+  return only;
 }
 #endif
 
@@ -190,7 +201,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
                     __global const uint* pixelOrder, __global const float* rays, __global const float* hits,
                     __global float* entryRadiance,  // [3][capacity] of the segment's entries
                     __global float* shadows,        // [SHADOW_PLANES][capacity]
-                    __global float* impulses,       // [2 IMPULSE_PLANES][capacity]
+                    __global float* impulses,       // [IMPULSES_OF_HIT IMPULSE_PLANES][capacity]
                     __global uint* flags,           // [capacity] ENTRY_…
                     __global float* aovs) {         // [AOV_PLANES][pixels]
   const uint i = (uint)get_global_id(0) * LANES;
@@ -229,8 +240,13 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #endif
       Real3 throughput = attenuation;
       if (bounce > 1) throughput = mul3(loadReal3(rays, capacity, RAY_THROUGHPUT, first + i), attenuation);
+#if HAS(BOTH_BRANCHES)
       found = found | storeImpulse(&s, &one, a.hit, throughput, 0, i, capacity, impulses);
       found = found | storeImpulse(&s, &two, a.hit, throughput, 1, i, capacity, impulses);
+#else
+      const Impulse only = existing(&one, &two);
+      found = found | storeImpulse(&s, &only, a.hit, throughput, 0, i, capacity, impulses);
+#endif
     }
 #endif
     radiance = choose3(a.hit, shaded, radiance);

@@ -161,7 +161,8 @@ WHITTLE_STRUCT(Batch) {
 #define SHADOW_CONTRIBUTION 7
 #define SHADOW_PLANES 10
 
-// Impulse candidates, two for each ray entry (plane + k * IMPULSE_PLANES): origin, direction, throughput.
+// Impulse candidates, two for each ray entry (plane + k * IMPULSE_PLANES), or one where no surface sends out
+// two: origin, direction, throughput.
 #define IMPULSE_O 0
 #define IMPULSE_D 3
 #define IMPULSE_THROUGHPUT 6

@@ -1,6 +1,8 @@
 // Statistics as JSON; the names are a contract with scripts.
 #include "render/stats.h"
 
+#include <cmath>
+
 namespace whittle {
 
 const char* toString(Search search) {
@@ -20,6 +22,7 @@ nlohmann::ordered_json settingsToJson(const Settings& s) {
           {"camera", s.camera},
           {"exposure", s.exposure},
           {"bounces", s.bounces},
+          {"cutoff", s.cutoff},
           {"raysPerPixel", s.raysPerPixel},
           {"shadows", s.shadows},
           {"search", toString(s.search)},
@@ -96,7 +99,9 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
          {"estimate",
           e.raysPerPixel >= 2 ? nlohmann::ordered_json(e.estimate) : nlohmann::ordered_json(nullptr)},
          {"rmse", e.rmse ? nlohmann::ordered_json(*e.rmse) : nlohmann::ordered_json(nullptr)}});
-  json["biasBound"] = nullptr;
+  json["cutOffThroughput"] = s.cutOffThroughput;
+  json["biasBound"] =
+      std::isfinite(s.biasBound) ? nlohmann::ordered_json(s.biasBound) : nlohmann::ordered_json(nullptr);
   json["nonFinite"] = s.nonFinite;
   json["dropped"] = s.dropped;
   return json;

@@ -1,30 +1,47 @@
 // compact: dense queues from sparse candidates, order kept (reduce, then scan, then scatter: Blelloch 1990), without
 // barriers: a work item walks COMPACT_CHUNK entries serially, which a CPU likes best and a GPU can afford with a small COMPACT_CHUNK.
-// compact_count: shadow rays and impulses in each chunk. scan_chunks: exclusive sums of chunk totals. compact_shadow
+// compact_count: shadow rays and impulses in each chunk, and what a cut-off kept from being impulses. scan_chunks: exclusive sums of chunk totals. compact_shadow
 // writes the shadow queue (indices of candidates), compact_impulse the next ray queue.
 #include "lib/math.cl"
 
 #define CHUNKS(count) (((count) + COMPACT_CHUNK - 1) / COMPACT_CHUNK)
 
 __kernel void compact_count(const uint count, __global const uint* flags,
-                            __global uint* totals) {  // [2][chunks] shadow rays, impulses
+                            __global uint* totals) {  // [2][chunks] shadow rays, impulses; with CUTOFF [3], units cut off
   const uint chunk = get_global_id(0);
   const uint begin = chunk * COMPACT_CHUNK;
   if (begin >= count) return;
   const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
-  uint shadows = 0, impulses = 0;
+  uint shadows = 0, impulses = 0, cut = 0;
   for (uint i = begin; i < end; ++i) {
     shadows += flags[i] & ENTRY_SHADOW;
     impulses += ((flags[i] >> 1) & 1u) + ((flags[i] >> 2) & 1u);
+#if HAS(CUTOFF)
+    cut += flags[i] >> ENTRY_CUTOFF_SHIFT;
+#endif
   }
   totals[chunk] = shadows;
   totals[CHUNKS(count) + chunk] = impulses;
+#if HAS(CUTOFF)
+  totals[2 * CHUNKS(count) + chunk] = cut;
+#endif
 }
 
-/// Two work items, one for each kind: totals[kind][i] becomes the sum of those before it; sums[kind] the sum of all.
+/// Two work items, one for each kind: totals[kind][i] becomes the sum of those before it; sums[kind] the sum of all. With
+/// CUTOFF a third: sums[2] and sums[3], the low and high half of the units cut off.
 __kernel void scan_chunks(const uint chunks, __global uint* totals, __global uint* sums) {
   const uint kind = get_global_id(0);
-  if (kind >= 2 || !sums) return;  // no sums: compiled ahead of its first launch
+  if (!sums) return;  // compiled ahead of its first launch
+#if HAS(CUTOFF)
+  if (kind == 2) {
+    ulong cut = 0;
+    for (uint i = 0; i < chunks; ++i) cut += totals[2 * chunks + i];
+    sums[2] = (uint)cut;
+    sums[3] = (uint)(cut >> 32);
+    return;
+  }
+#endif
+  if (kind >= 2) return;
   __global uint* own = totals + kind * chunks;
   uint running = 0;
   for (uint i = 0; i < chunks; ++i) {
@@ -57,7 +74,7 @@ __kernel void compact_impulse(const uint first, const uint count, const uint cap
   const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
   uint out = offsets[CHUNKS(count) + chunk];
   for (uint i = begin; i < end; ++i) {
-    for (uint k = 0; k < 2; ++k) {
+    for (uint k = 0; k < IMPULSES_OF_HIT; ++k) {
       if (!(flags[i] & (ENTRY_IMPULSE0 << k))) continue;
       for (uint plane = 0; plane < IMPULSE_PLANES; ++plane)
         next[(size_t)plane * capacity + out] = impulses[(size_t)(k * IMPULSE_PLANES + plane) * capacity + i];

@@ -109,19 +109,36 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
 }
 #endif
 
+#if HAS(CUTOFF)
+/// The largest channel of a throughput that is at most the cut-off, in the units of layout.h. Truncation loses less than
+/// one unit, the rounding of the division a fraction of another.
+INLINE Natural cutOffUnits(Real3 throughput, float cutoff) {
+  const Real share = clampUnit(largestOf(throughput.x, throughput.y, throughput.z) / cutoff);
+  return AS_NATURAL(TO_WHOLE(share * (float)CUTOFF_UNITS)) + 2u;
+}
+#endif
+
 #if HAS(IMPULSES)
-/// Stores impulse k of the entries from i where it carries anything; returns its flags.
-INLINE Natural storeImpulse(const Surfel* s, const Impulse* impulse, Mask hit, Real3 throughput, uint k, uint i, uint capacity,
-                            __global float* impulses) {
+/// Stores impulse k of the entries from i, where it carries anything, in the k-th set of planes; returns its flags
+/// and what was cut off, to be added up.
+INLINE Natural storeImpulse(const RenderConstants* constants, const Surfel* s, const Impulse* impulse, Mask hit, Real3 throughput,
+                            uint k, uint i, uint capacity, __global float* impulses) {
   const Real3 carried = mul3(throughput, impulse->magnitude);
-  const Mask sent = hit & somePositive(carried) & finite3(impulse->w_i);
-  if (!some(sent)) return (Natural)(0);
+  Mask sent = hit & somePositive(carried) & finite3(impulse->w_i);
+  Natural cut = (Natural)(0);
+#if HAS(CUTOFF)
+  const float cutoff = constants->cutoff;
+  const Mask weak = sent & (carried.x <= cutoff) & (carried.y <= cutoff) & (carried.z <= cutoff);
+  if (some(weak)) cut = weak ? cutOffUnits(carried, cutoff) << ENTRY_CUTOFF_SHIFT : cut;
+  sent = sent & !weak;
+#endif
+  if (!some(sent)) return cut;
   const Real side = dots(s->n_g, impulse->w_i) > 0.0f ? s->bump : -s->bump;
   const uint base = k * IMPULSE_PLANES;
   storeReal3(impulses, capacity, base + IMPULSE_O, i, add3(s->position, scale3(side, s->n_g)));
   storeReal3(impulses, capacity, base + IMPULSE_D, i, impulse->w_i);
   storeReal3(impulses, capacity, base + IMPULSE_THROUGHPUT, i, carried);
-  return sent ? (Natural)(ENTRY_IMPULSE0 << k) : (Natural)(0);
+  return cut + (sent ? (Natural)(ENTRY_IMPULSE0 << k) : (Natural)(0));
 }
 
 /// Keeps one of two impulses with probability proportional to its luminance, divided by that probability.
@@ -134,6 +151,17 @@ INLINE void chooseOne(Impulse* first, Impulse* second, Real u) {
   const Mask one = u < p;
   first->magnitude = choose3(any, choose3(one, over3(first->magnitude, p), zero), first->magnitude);
   second->magnitude = choose3(any, choose3(one, zero, over3(second->magnitude, 1.0f - p)), second->magnitude);
+}
+#endif
+
+#if HAS(IMPULSES) && !HAS(BOTH_BRANCHES)
+/// Where no surface sends out two impulses: the one there is.
+INLINE Impulse existing(const Impulse* first, const Impulse* second) {
+  const Mask isSecond = somePositive(second->magnitude);
+  Impulse only;
+  only.w_i = choose3(isSecond, second->w_i, first->w_i);
+  only.magnitude = choose3(isSecond, second->magnitude, first->magnitude);
+  return only;
 }
 #endif
 
@@ -191,8 +219,8 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
                     __global const uint* pixelOrder, __global const float* rays, __global const float* hits,
                     __global float* entryRadiance,  // [3][capacity] of the segment's entries
                     __global float* shadows,        // [SHADOW_PLANES][capacity]
-                    __global float* impulses,       // [2 IMPULSE_PLANES][capacity]
-                    __global uint* flags,           // [capacity] ENTRY_…
+                    __global float* impulses,       // [IMPULSES_OF_HIT IMPULSE_PLANES][capacity]
+                    __global uint* flags,           // [capacity] ENTRY_… and what was cut off
                     __global float* aovs) {         // [AOV_PLANES][pixels]
   const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
@@ -230,8 +258,13 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #endif
       Real3 throughput = attenuation;
       if (bounce > 1) throughput = mul3(loadReal3(rays, capacity, RAY_THROUGHPUT, first + i), attenuation);
-      found = found | storeImpulse(&s, &one, a.hit, throughput, 0, i, capacity, impulses);
-      found = found | storeImpulse(&s, &two, a.hit, throughput, 1, i, capacity, impulses);
+#if HAS(BOTH_BRANCHES)
+      found = found + storeImpulse(&own, &s, &one, a.hit, throughput, 0, i, capacity, impulses);
+      found = found + storeImpulse(&own, &s, &two, a.hit, throughput, 1, i, capacity, impulses);
+#else
+      const Impulse only = existing(&one, &two);
+      found = found + storeImpulse(&own, &s, &only, a.hit, throughput, 0, i, capacity, impulses);
+#endif
     }
 #endif
     radiance = choose3(a.hit, shaded, radiance);

@@ -113,6 +113,10 @@ void addPictureOptions(CLI::App& c, Settings& s) {
 
   c.option_defaults()->group("Light");
   addWhole(c, "--bounces", s.bounces, 1, 4096, "N", "backward tracing steps; 1 = direct light only");
+  addReal(c, "--cutoff", s.cutoff, 0, kLargestCutoff, "T",
+          "trace no mirror or glass ray whose share of the picture (throughput) is at most this in every "
+          "colour; --stats says what that can cost (biasBound)",
+          "0: trace them all");
   addWhole(c, "--rays-per-pixel", s.raysPerPixel, 1, 1 << 24, "N",
            "primary rays; 1 = through the pixel's centre");
   c.add_flag("--shadows,!--no-shadows", s.shadows, "trace shadow rays [on]");

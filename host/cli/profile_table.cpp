@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/text.h"
 
@@ -61,6 +62,8 @@ std::string renderSummary(const Stats& s) {
                      formatInteger(s.rays.impulse), formatInteger(s.rays.shadow));
   if (!s.error.empty() && s.error.back().raysPerPixel >= 2)
     out += fmt::format("estimated error {} W/(m² sr)\n", formatReal(s.error.back().estimate));
+  if (s.cutOffThroughput > 0.0 && std::isfinite(s.biasBound))
+    out += fmt::format("the cut-off took at most {} W/(m² sr) off the mean\n", formatReal(s.biasBound));
   return out;
 }
 

@@ -52,6 +52,7 @@ std::string statsText(const ReferenceOptions& o, const Scene& scene, const Refer
                                       {"shadow", rays.shadow},
                                       {"total", rays.total()}}},
                                     {"time", {{"render", seconds}}},
+                                    {"cutOffThroughput", rays.cutOff},
                                     {"nonFinite", result.nonFinite}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <future>
 #include <memory>
@@ -179,6 +180,11 @@ void runRender(RenderOptions& o) {
   if (result.stats.nonFinite > 0)
     fmt::print(stderr, "warning: {} samples were not finite and count as black\n",
                formatInteger(result.stats.nonFinite));
+  if (!std::isfinite(result.stats.biasBound))
+    fmt::print(
+        stderr,
+        "warning: no bound on what --cutoff left out: a light lies on a surface that scatters it, or a "
+        "factor of a material is outside its range\n");
   writeResults(o, result, start, trace.get());
   report(o, result.stats);
 }

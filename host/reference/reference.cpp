@@ -61,6 +61,7 @@ ReferenceResult render(const Scene& scene, const Settings& settings,
     result.rays.primary += row.rays.primary;
     result.rays.impulse += row.rays.impulse;
     result.rays.shadow += row.rays.shadow;
+    result.rays.cutOff += row.rays.cutOff;
     result.nonFinite += row.nonFinite;
   }
   return result;

@@ -15,6 +15,7 @@ struct RayCounts {
   std::uint64_t primary = 0;
   std::uint64_t impulse = 0;
   std::uint64_t shadow = 0;
+  double cutOff = 0;  ///< throughput (largest channel) of the impulses that the cut-off left out, summed
   std::uint64_t total() const { return primary + impulse + shadow; }
 };
 

@@ -50,6 +50,10 @@ Vec3 impulseLight(const World& world, const Sample& sample, const Surfel& surfel
   for (const Impulse& impulse : impulses.all()) {
     const Vec3 share = throughput * impulse.magnitude;
     if (!anyPositive(share)) continue;
+    if (glm::all(glm::lessThanEqual(share, Vec3(world.settings.cutoff)))) {
+      sample.rays.cutOff += maxComponent(share);
+      continue;
+    }
     ++sample.rays.impulse;
     const double side = impulse.through ? -1 : 1;
     const Ray ray{surfel.position + side * surfel.bump * surfel.facing, impulse.w_i};

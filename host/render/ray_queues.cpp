@@ -25,12 +25,15 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
   hits = planes("hits", HIT_PLANES);
   sampleRadiance = planes("sampleRadiance", 3);
   if (shadowRays) shadows = planes("shadows", SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
+  const std::size_t impulsesOfHit = features.has(Feature::BOTH_BRANCHES) ? 2 : 1;
   if (impulseRays)
-    impulses = planes("impulses", 2 * IMPULSE_PLANES), entryRadiance = planes("entryRadiance", 3);
+    impulses = planes("impulses", impulsesOfHit * IMPULSE_PLANES), entryRadiance = planes("entryRadiance", 3);
   if (shadowRays || impulseRays) {
     flags = planes("flags", 1);
-    totals = compute.allocate("totals", 2 * (capacity / compactChunk + 1) * sizeof(std::uint32_t));
-    sums = compute.allocate("sums", 2 * sizeof(std::uint32_t));
+    const bool cutOff = features.has(Feature::CUTOFF);
+    totals =
+        compute.allocate("totals", (cutOff ? 3 : 2) * (capacity / compactChunk + 1) * sizeof(std::uint32_t));
+    sums = compute.allocate("sums", (cutOff ? 4 : 2) * sizeof(std::uint32_t));
   }
 }
 

@@ -20,6 +20,7 @@
 #include "render/kernel_programs.h"
 #include "render/pixel_order.h"
 #include "render/plan.h"
+#include "render/radiance_bound.h"
 #include "render/wavefront.h"
 #include "scene/input_error.h"
 
@@ -41,6 +42,7 @@ device::RenderConstants constantsToDevice(const Scene& scene, const Settings& s)
   c.backgroundHeight = scene.background.height;
   c.mirrorRoughness = s.mirrorRoughness;
   c.seed = s.seed;
+  c.cutoff = s.cutoff;
   return c;
 }
 
@@ -68,6 +70,8 @@ void checkLimits(const Settings& s) {
     throw InputError(
         fmt::format("--width/--height: {}×{} is not between 1×1 and 65535×65535", s.width, s.height));
   if (s.bounces < 1) throw InputError("--bounces: at least 1");
+  if (!(s.cutoff >= 0.0F && s.cutoff <= kLargestCutoff))
+    throw InputError(fmt::format("--cutoff: not from 0 to {}", kLargestCutoff));
   if (s.raysPerPixel < 1) throw InputError("--rays-per-pixel: at least 1");
 }
 
@@ -330,6 +334,8 @@ class Session {
     const RayTally& t = wavefront_->tally();
     stats_.rays = {t.primary, t.impulse, t.shadow};
     stats_.dropped = t.produced - t.finished;
+    stats_.cutOffThroughput = cutOffThroughput(settings_, t.cutOff);
+    stats_.biasBound = biasBound(scene_, settings_, t.cutOff, t.primary);
     stats_.nonFinite = wavefront_->nonFinite();
     stats_.stages = stages_->stats();
     reportBuffers();

@@ -173,6 +173,8 @@ std::vector<Question> impulseQuestions(const Needs& n) {
        n.settings.impulses == ImpulseMode::One ? "one impulse is chosen at random"
                                                : "no surface sends out two impulses",
        n.settings.impulses == ImpulseMode::One},
+      {F::CUTOFF, some && n.settings.cutoff > 0.0F,
+       n.settings.cutoff > 0.0F ? none : "no cut-off was asked for", true},
       {F::ONE_IMPULSE, some && n.settings.impulses == ImpulseMode::One, "both branches are followed", true},
   };
 }

@@ -1,6 +1,8 @@
 // Statistics as JSON; the names are a contract with scripts.
 #include "render/stats.h"
 
+#include <cmath>
+
 #include "render/scene_features.h"
 
 namespace whittle {
@@ -33,6 +35,7 @@ nlohmann::ordered_json settingsToJson(const Settings& s) {
           {"camera", s.camera},
           {"exposure", s.exposure},
           {"bounces", s.bounces},
+          {"cutoff", s.cutoff},
           {"raysPerPixel", s.raysPerPixel},
           {"shadows", s.shadows},
           {"search", toString(s.search)},
@@ -111,7 +114,9 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
          {"estimate",
           e.raysPerPixel >= 2 ? nlohmann::ordered_json(e.estimate) : nlohmann::ordered_json(nullptr)},
          {"rmse", e.rmse ? nlohmann::ordered_json(*e.rmse) : nlohmann::ordered_json(nullptr)}});
-  json["biasBound"] = nullptr;
+  json["cutOffThroughput"] = s.cutOffThroughput;
+  json["biasBound"] =
+      std::isfinite(s.biasBound) ? nlohmann::ordered_json(s.biasBound) : nlohmann::ordered_json(nullptr);
   json["nonFinite"] = s.nonFinite;
   json["dropped"] = s.dropped;
   return json;

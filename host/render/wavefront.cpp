@@ -19,6 +19,7 @@ Wavefront::Wavefront(Compute& compute, StageRunner& stages, RayQueues& queues, c
       aovs_(aovs) {
   counters_ = compute_.allocate("counters", COUNTERS * sizeof(std::uint32_t));
   compute_.fillZero(counters_);
+  tally_.cutOff.resize(setup_.bounces);
 }
 
 void Wavefront::trace(std::uint32_t firstSample, std::uint32_t samples,
@@ -76,6 +77,7 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
   intersect(queue, segment);
   shade(queue, segment, bounce);
   const Candidates found = countCandidates(segment);
+  tally_.cutOff[bounce - 1] += found.cutOff;
   occlude(compactShadow(segment, found.shadow));
   for (std::uint32_t light = 1; light < setup_.scene.lightCount; ++light) {
     shadeLight(queue, segment, light);
@@ -115,10 +117,11 @@ Wavefront::Candidates Wavefront::countCandidates(Segment segment) {
   if (!queues_.flags) return {};
   const std::uint32_t chunks = chunksOf(segment);
   stages_.run("compact_count", chunks, segment.count(), segment.count(), queues_.flags, queues_.totals);
-  stages_.run("scan_chunks", 2, chunks, chunks, queues_.totals, queues_.sums);
-  std::array<std::uint32_t, 2> sums{};
-  compute_.read(queues_.sums, 0, sizeof(sums), sums.data());
-  return {sums[0], sums[1]};
+  const std::uint32_t kinds = setup_.features.has(Feature::CUTOFF) ? 3 : 2;
+  stages_.run("scan_chunks", kinds, chunks, chunks, queues_.totals, queues_.sums);
+  std::array<std::uint32_t, 4> sums{};
+  compute_.read(queues_.sums, 0, queues_.sums.bytes, sums.data());
+  return {sums[0], sums[1], std::uint64_t{sums[3]} << 32 | sums[2]};
 }
 
 std::uint32_t Wavefront::compactShadow(Segment segment, std::uint32_t found) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "cl/program.h"
 #include "kernels/shared/layout.h"
@@ -18,6 +19,10 @@ struct RayTally {
   std::uint64_t primary = 0, impulse = 0, shadow = 0;
   std::uint64_t produced = 0;  ///< rays put into a queue
   std::uint64_t finished = 0;  ///< rays intersected and shaded
+  /// Of the impulses that the cut-off left out at the hits of bounce b + 1: largest channels of their
+  /// throughputs, summed, in units of cutoff / CUTOFF_UNITS. The same however the samples were cut into
+  /// batches.
+  std::vector<std::uint64_t> cutOff;
 };
 
 /// What every launch needs besides the queues; owned by the Renderer.
@@ -57,6 +62,7 @@ class Wavefront {
   /// What shading asked for in a segment.
   struct Candidates {
     std::uint32_t shadow = 0, impulse = 0;
+    std::uint64_t cutOff = 0;  ///< units, as RayTally::cutOff
   };
   Candidates countCandidates(Segment segment);
   std::uint32_t compactShadow(Segment segment, std::uint32_t found);

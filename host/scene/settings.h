@@ -18,7 +18,8 @@ struct Settings {
   int height = 360;          ///< pixels
   std::string camera = "0";  ///< name or index
   int bounces = 8;           ///< backward tracing steps; 1 = direct light only
-  int raysPerPixel = 1;      ///< 1 = through the pixel's centre
+  float cutoff = 0.0F;   ///< no impulse of at most this throughput in every channel is traced; 0: none is cut
+  int raysPerPixel = 1;  ///< 1 = through the pixel's centre
   bool shadows = true;
   Search search = Search::Auto;
   Sampler sampler = Sampler::Random;
@@ -39,5 +40,8 @@ struct Settings {
   bool aovs = false;         ///< keep depth, normal, albedo and primitive of each pixel's first sample
   float exposure = 0.0F;     ///< stops, for .png/.jpg only
 };
+
+/// Far above any throughput: everything is cut off.
+inline constexpr float kLargestCutoff = 1000.0F;
 
 }  // namespace whittle

@@ -48,7 +48,8 @@
   X(AOVS, 40, "auxiliary outputs")                                \
   X(IMPULSES, 41, "impulse queue")                                \
   X(LIGHTS, 42, "direct light")                                   \
-  X(NEAREST_FILTER, 43, "nearest texture filter")
+  X(NEAREST_FILTER, 43, "nearest texture filter")                 \
+  X(CUTOFF, 44, "cut-off of weak impulses")
 
 #ifdef __OPENCL_VERSION__
 // Preprocessor arithmetic is 64 bits wide; the macro above cannot define macros, so the bits stand here again
@@ -97,6 +98,7 @@
 #define BIT_IMPULSES 41
 #define BIT_LIGHTS 42
 #define BIT_NEAREST_FILTER 43
+#define BIT_CUTOFF 44
 #ifndef SCENE_FEATURES
 #define SCENE_FEATURES 0x7fffffffffffffff
 #endif

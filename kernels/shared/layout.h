@@ -123,6 +123,7 @@ WHITTLE_STRUCT(RenderConstants) {
   int backgroundHeight;
   float mirrorRoughness;
   uint seed;
+  float cutoff;  // an impulse whose throughput is at most this in every channel is not traced
 };
 
 // The samples of one batch: pixels [firstPixel, firstPixel + pixels) of the pixel order, times samples
@@ -161,7 +162,8 @@ WHITTLE_STRUCT(Batch) {
 #define SHADOW_CONTRIBUTION 7
 #define SHADOW_PLANES 10
 
-// Impulse candidates, two for each ray entry (plane + k * IMPULSE_PLANES): origin, direction, throughput.
+// Impulse candidates, two for each ray entry (plane + k * IMPULSE_PLANES), or one where no surface sends out
+// two: origin, direction, throughput.
 #define IMPULSE_O 0
 #define IMPULSE_D 3
 #define IMPULSE_THROUGHPUT 6
@@ -171,6 +173,12 @@ WHITTLE_STRUCT(Batch) {
 #define ENTRY_SHADOW 1u
 #define ENTRY_IMPULSE0 2u
 #define ENTRY_IMPULSE1 4u
+// With CUTOFF, above the flags: what the entry's impulses would have carried but for the cut-off, each the
+// largest channel of its throughput in units of cutoff / CUTOFF_UNITS, rounded up. Sums of integers depend on
+// no order. Two impulses of CUTOFF_UNITS + 2 fit, and the sum over a chunk of up to 2^14 entries fits 32
+// bits.
+#define ENTRY_CUTOFF_SHIFT 3
+#define CUTOFF_UNITS 65536
 
 // Film planes for each pixel, in the pixel order: compensated sums of RGB, and of luminance squared for the
 // error estimate. One sample for each pixel needs the sums only.

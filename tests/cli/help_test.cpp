@@ -45,6 +45,7 @@ TEST(HelpOfRender, ShowsEachOptionOnceWithItsDefault) {
                              "--camera",
                              "--exposure",
                              "--bounces",
+                             "--cutoff",
                              "--rays-per-pixel",
                              "--shadows, --no-shadows",
                              "--search",

@@ -86,6 +86,16 @@ TEST(Stats, SettingsAreThoseAskedFor) {
   EXPECT_EQ(s["quiet"], true);
 }
 
+TEST(Stats, ACutoffTracesLessAndSaysWhatItCanCost) {
+  const Json whole = statsOf({}), cut = statsOf({"--cutoff", "0.25"});
+  EXPECT_EQ(whole["settings"]["cutoff"], 0);
+  EXPECT_EQ(whole["biasBound"], 0);
+  EXPECT_EQ(cut["settings"]["cutoff"], 0.25);
+  EXPECT_GT(cut["biasBound"].get<double>(), 0);
+  EXPECT_GT(cut["cutOffThroughput"].get<double>(), 0);
+  EXPECT_LT(cut["rays"]["impulse"].get<int>(), whole["rays"]["impulse"].get<int>());
+}
+
 TEST(Stats, TimeLimitStopsEarlyAndSaysHowFarItCame) {
   // A limit that the first pass of one ray has passed already: the second pass must not start… but two rays
   // give an estimate.

@@ -55,6 +55,8 @@ std::vector<Mistake> mistakes() {
       {"SeedNegative", {"render", s, "--seed", "-1"}, {"--seed", "'-1'"}},
       {"ExposureNan", {"render", s, "--exposure", "nan"}, {"--exposure", "'nan'"}},
       {"BumpNegative", {"render", s, "--bump", "-1"}, {"--bump", "'-1'"}},
+      {"CutoffNegative", {"render", s, "--cutoff", "-0.1"}, {"--cutoff", "'-0.1'", "0 to 1000"}},
+      {"CutoffNanToReference", {"reference", s, "-o", "a.exr", "--cutoff", "nan"}, {"--cutoff", "'nan'"}},
       {"TimeLimitWord", {"render", s, "--time-limit", "soon"}, {"--time-limit", "'soon'"}},
       {"SamplerUnknown",
        {"render", s, "--sampler", "halton"},

@@ -33,8 +33,8 @@ class Compaction {
  public:
   explicit Compaction(std::uint32_t chunk)
       : bench({"compact.cl"}, "", test::kAllFeatures, static_cast<int>(chunk)), chunk_(chunk) {
-    totals_ = bench.compute.allocate("totals", 2 * (kCapacity / chunk + 1) * sizeof(std::uint32_t));
-    sums_ = bench.compute.allocate("sums", 2 * sizeof(std::uint32_t));
+    totals_ = bench.compute.allocate("totals", 3 * (kCapacity / chunk + 1) * sizeof(std::uint32_t));
+    sums_ = bench.compute.allocate("sums", 4 * sizeof(std::uint32_t));
   }
 
   /// Indices of the entries with a shadow ray; the whole buffer, so that writes beyond the end show.
@@ -60,6 +60,15 @@ class Compaction {
     bench.stages.run("compact_impulse", chunks(count), count, first, count, kCapacity, f, totals_, from,
                      queue, next);
     return bench.read<std::uint32_t>(next, RAY_PLANES * kCapacity);
+  }
+
+  /// What stands above the flags, summed over the entries.
+  std::uint64_t cutOff(const std::vector<std::uint32_t>& flags, std::uint32_t count) {
+    const Buffer f = bench.compute.upload("flags", flags);
+    bench.stages.run("compact_count", chunks(count), count, count, f, totals_);
+    bench.stages.run("scan_chunks", 3, chunks(count), chunks(count), totals_, sums_);
+    const auto sums = bench.read<std::uint32_t>(sums_, 4);
+    return std::uint64_t{sums[3]} << 32 | sums[2];
   }
 
   std::uint32_t found = 0;  ///< of the last compaction
@@ -131,6 +140,25 @@ TEST(Compact, KeepsWhatIsWantedInOrder) {
         checkImpulse(compaction, pattern, count);
         if (testing::Test::HasFailure()) return;
       }
+    }
+  }
+}
+
+TEST(Compact, SumsWhatWasCutOffWhateverTheChunk) {
+  for (const std::uint32_t chunk : {1U, 7U, 32U, 1024U}) {
+    Compaction compaction(chunk);
+    // One entry holds up to two impulses; more than 32 bits in all where a chunk cannot overflow.
+    const std::uint32_t most = chunk == 1 ? (1U << 29) - 1 : 2 * (CUTOFF_UNITS + 2);
+    for (const std::uint32_t count : {1U, chunk + 1, kCapacity}) {
+      test::Rng rng(count);
+      auto flags = makeFlags(Pattern::Random, count);
+      std::uint64_t expected = 0;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const auto units = static_cast<std::uint32_t>(rng.bits() % (most + 1));
+        flags[i] |= units << ENTRY_CUTOFF_SHIFT;
+        expected += units;
+      }
+      EXPECT_EQ(compaction.cutOff(flags, count), expected) << "chunk " << chunk << ", " << count;
     }
   }
 }

@@ -86,6 +86,7 @@ std::vector<Field> hostFields() {
       FIELD(RenderConstants, backgroundHeight),
       FIELD(RenderConstants, mirrorRoughness),
       FIELD(RenderConstants, seed),
+      FIELD(RenderConstants, cutoff),
       FIELD(Batch, firstPixel),
       FIELD(Batch, pixels),
       FIELD(Batch, firstSample),

@@ -1,0 +1,29 @@
+// What a cut-off can cost at most: an upper bound on the radiance that comes back along any ray.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace whittle {
+
+/// Element n: an upper bound, each channel, W/(m² sr), on the radiance along a ray that may be followed
+/// through n hits more (element 0: 0). Infinite where there is no bound: a light on a surface that scatters
+/// it, factors of a material outside their range.
+std::vector<glm::dvec3> radianceBounds(const Scene& scene, const Settings& settings, int hits);
+
+/// An upper bound on the mean, over `samples` samples of the picture, of the radiance (largest channel,
+/// W/(m² sr)) that the cut-off left out. cutOff: RayTally::cutOff. 0 where nothing was cut off; infinite
+/// where radianceBounds is. With ImpulseMode::One it bounds the expected radiance, about which the choices
+/// scatter.
+double biasBound(const Scene& scene, const Settings& settings, const std::vector<std::uint64_t>& cutOff,
+                 std::uint64_t samples);
+
+/// RayTally::cutOff as throughput: the sum of the largest channels.
+double cutOffThroughput(const Settings& settings, const std::vector<std::uint64_t>& cutOff);
+
+}  // namespace whittle

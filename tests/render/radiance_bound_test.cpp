@@ -1,0 +1,177 @@
+// The bound on radiance against rays of the double-precision recursion, and where it must be exact.
+#include "render/radiance_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/largest_biradiance.h"
+#include "single_rays.h"
+#include "support/random_scenes.h"
+
+namespace whittle::test {
+namespace {
+
+double largest(const glm::dvec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
+
+TEST(RadianceBound, AHallOfMirrorsReturnsNoMoreThanItsLamp) {
+  Scene scene;
+  addFloor(scene, mirror(glm::vec3(0.9F)), 0, true);
+  addFloor(scene, mirror(glm::vec3(0.8F)), 2, false);
+  addFloor(scene, glass(1.5F, true), 1, true);
+  addFloor(scene, emitter({1, 2, 3}), -1, true);
+  scene.background.radiance = {0.5F, 4, 0.5F};
+  const auto bounds = radianceBounds(scene, {}, 40);
+  ASSERT_EQ(bounds.size(), 41U);
+  EXPECT_EQ(bounds[0], glm::dvec3(0));
+  EXPECT_NEAR(glm::length(bounds[40] - glm::dvec3(1, 4, 3)), 0, 5e-3);
+}
+
+TEST(RadianceBound, MirrorsThatGlowAddUp) {
+  Material material = mirror(glm::vec3(1));
+  material.emission = glm::vec3(2);
+  Scene scene;
+  addFloor(scene, material, 0, true);
+  addFloor(scene, material, 1, false);
+  const auto bounds = radianceBounds(scene, {}, 10);
+  for (std::size_t n = 0; n <= 10; ++n) EXPECT_NEAR(bounds[n].x, 2.0 * static_cast<double>(n), 2e-3) << n;
+}
+
+TEST(RadianceBound, AMatteFloorIsBrightestBelowItsLight) {
+  Scene scene;
+  addFloor(scene, lambert({0.5F, 0.25F, 1}), 0, true, 4);
+  scene.lights = {pointLight({1, 0.5F, 2}, 3)};  // above a face
+  EXPECT_NEAR(radianceBounds(scene, {}, 1)[1].z, 3 / 0.25 / M_PI, 1e-3);
+  scene.lights = {pointLight({7, 4, 0.5F}, 3)};  // beside an edge
+  EXPECT_NEAR(radianceBounds(scene, {}, 1)[1].x, 0.5 * 3 / 25 / M_PI, 1e-5);
+  scene.lights = {pointLight({6, 1, 6}, 3)};  // beyond a corner
+  EXPECT_NEAR(radianceBounds(scene, {}, 1)[1].y, 0.25 * 3 / 9 / M_PI, 1e-5);
+  scene.lights[0].range = 2.9F;
+  EXPECT_EQ(radianceBounds(scene, {}, 1)[1], glm::dvec3(0));
+  scene.lights[0].kind = LightKind::Directional;
+  EXPECT_NEAR(radianceBounds(scene, {}, 1)[1].z, 3 / M_PI, 1e-4);
+}
+
+TEST(RadianceBound, ThereIsNoneForALightOnASurfaceUnlessItScattersNothing) {
+  Scene scene;
+  addFloor(scene, lambert(glm::vec3(0.5F)), 0, true, 4);
+  scene.lights = {pointLight({1, 0, 1}, 3)};
+  EXPECT_EQ(radianceBounds(scene, {}, 1)[1].x, std::numeric_limits<double>::infinity());
+  scene.materials[0] = emitter(glm::vec3(7));
+  EXPECT_NEAR(radianceBounds(scene, {}, 1)[1].x, 7, 1e-3);
+  scene.materials[0] = mirror(glm::vec3(1));
+  EXPECT_EQ(radianceBounds(scene, {}, 3)[3].x, 0);
+  scene.materials[0].specular = 2;
+  EXPECT_EQ(radianceBounds(scene, {}, 1)[1].x, std::numeric_limits<double>::infinity()) << "no reflectance";
+}
+
+/// Anything that the loader accepts without a word.
+Material anyMaterialOf(Rng& rng) {
+  const auto often0 = [&](float high) { return rng.unit() < 0.5F ? 0.0F : rng.between(0, high); };
+  Material m;
+  m.baseColor = {rng.unit(), rng.unit(), rng.unit(), rng.unit()};
+  m.metallic = rng.unit() < 0.3F ? 1.0F : often0(1);
+  m.roughness = rng.between(0, 0.6F);
+  m.specular = rng.unit() < 0.5F ? 1.0F : rng.unit();
+  m.specularColor = {rng.unit(), rng.unit(), 2 * rng.unit()};
+  m.transmission = often0(1);
+  m.ior = rng.between(1, 2.5F);
+  m.volume = rng.unit() < 0.4F;
+  m.emission = glm::vec3(often0(0.5F));
+  m.alphaMode = rng.unit() < 0.3F ? AlphaMode::Blend : AlphaMode::Opaque;
+  m.unlit = rng.unit() < 0.1F;
+  return m;
+}
+
+/// Quads of random materials in a cube of 2 m, two lights, a background.
+Scene anyScene(Rng& rng) {
+  Scene scene;
+  for (int i = 0; i < 10; ++i)
+    addQuad(scene, addMaterial(scene, anyMaterialOf(rng)), rng.inBox(1), 2.0F * rng.direction(),
+            2.0F * rng.direction());
+  scene.lights = {pointLight(rng.inBox(1), rng.between(0.1F, 1)), pointLight(rng.inBox(1), 1)};
+  scene.lights[1].kind = LightKind::Directional;
+  scene.lights[1].direction = rng.direction();
+  scene.background.radiance = {0.1F, rng.unit(), 0.3F};
+  return scene;
+}
+
+TEST(RadianceBound, NoRayBringsMore) {
+  Rng rng(7);
+  double nearest = 0;
+  for (int s = 0; s < 60; ++s) {
+    Settings settings;
+    settings.mirrorRoughness = s % 3 == 0 ? 0.05F : 0.2F;
+    Scene scene = anyScene(rng);
+    if (s % 4 == 0) scene.lights.clear();
+    const auto bounds = radianceBounds(scene, settings, 5);
+    for (const int bounces : {1, 2, 5}) {
+      settings.bounces = bounces;
+      Probe probe(scene, settings);
+      const glm::dvec3 bound = bounds[static_cast<std::size_t>(bounces)];
+      for (int i = 0; i < 300; ++i) {
+        const Vec3 seen = probe.Li(rng.inBox(1.5F), rng.direction());
+        for (int c = 0; c < 3; ++c) {
+          ASSERT_LE(seen[c], bound[c]) << "scene " << s << ", " << bounces << " bounces";
+          nearest = std::max(nearest, seen[c] / bound[c]);
+        }
+      }
+    }
+  }
+  EXPECT_GT(nearest, 0.5) << "or the bound says nothing";
+}
+
+TEST(RadianceBound, NoHighlightIsBrighterHoweverItIsSeen) {
+  Rng rng(11);
+  for (const float roughness : {0.2F, 0.3F, 0.5F, 1.0F}) {
+    Scene scene;
+    Material metal = mirror(glm::vec3(1));
+    metal.roughness = roughness;
+    addFloor(scene, metal, 0, true);
+    scene.lights = {pointLight({0, 1, 0}, 1)};
+    scene.lights[0].kind = LightKind::Directional;
+    Settings settings = exactSettings();
+    settings.bounces = 1;
+    double most = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const double down = i % 2 == 0 ? std::pow(10.0, -3 * rng.unit()) : rng.unit();
+      const Vec3 w = glm::normalize(Vec3(1, -down, 0));
+      scene.lights[0].direction = glm::vec3(w.x, w.y, 0.1F * rng.unit());  // seen near its mirror image
+      Probe probe(scene, settings);
+      most = std::max(most, largest(probe.Li({-w.x, -w.y, 0}, w)));
+      most = std::max(most, largest(probe.Li({w.x, -w.y, 0}, {-w.x, w.y, 0})));
+    }
+    const double bound = largest(radianceBounds(scene, settings, 1)[1]);
+    EXPECT_LE(most, bound) << roughness;
+    EXPECT_GT(most, 0.3 * bound) << roughness;
+  }
+}
+
+TEST(LightReach, NoPointOfAMaterialIsNearer) {
+  Rng rng(3);
+  for (int s = 0; s < 200; ++s) {
+    Scene scene;
+    const auto material = addMaterial(scene, lambert(glm::vec3(1)));
+    addMaterial(scene, lambert(glm::vec3(1)));  // of nothing
+    for (int i = 0; i < 3; ++i)
+      addQuad(scene, material, rng.inBox(1), rng.inBox(1), s % 2 ? rng.inBox(1e-6F) : rng.inBox(1));
+    scene.lights = {pointLight(rng.inBox(2), 1)};
+    const auto most = largestBiradiance(scene);
+    EXPECT_EQ(most[1], glm::dvec3(0));
+    double sampled = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Triangle& t = scene.triangles[static_cast<std::size_t>(rng.unit() * 6)];
+      double u = rng.unit(), v = rng.unit();
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      if (i % 3 == 0) v = 0;
+      const glm::dvec3 a = scene.positions[t.v0], b = scene.positions[t.v1], c = scene.positions[t.v2];
+      const glm::dvec3 away = a + u * (b - a) + v * (c - a) - glm::dvec3(scene.lights[0].position);
+      sampled = std::max(sampled, 1 / glm::dot(away, away));
+    }
+    EXPECT_LE(sampled, most[0].x);
+    EXPECT_GT(sampled, 0.7 * most[0].x);
+  }
+}
+
+}  // namespace
+}  // namespace whittle::test

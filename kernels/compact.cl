@@ -1,7 +1,8 @@
 // compact: dense queues from sparse candidates, order kept (reduce, then scan, then scatter: Blelloch 1990), without
 // barriers: a work item walks COMPACT_CHUNK entries serially, which a CPU likes best and a GPU can afford with a small COMPACT_CHUNK.
-// compact_count: shadow rays and impulses in each chunk, and what a cut-off kept from being impulses. scan_chunks: exclusive sums of chunk totals. compact_shadow
-// writes the shadow queue (indices of candidates), compact_impulse the next ray queue.
+// compact_count: shadow rays and impulses in each chunk, and what a cut-off kept from being impulses. scan_chunks:
+// exclusive sums of chunk totals. compact_shadow writes the shadow queue (indices of candidates), compact_impulse the next
+// ray queue.
 #include "lib/math.cl"
 
 #define CHUNKS(count) (((count) + COMPACT_CHUNK - 1) / COMPACT_CHUNK)

@@ -59,9 +59,9 @@ struct Stats {
   std::vector<BufferStats> buffers;
   std::vector<ErrorPoint> error;
   double cutOffThroughput = 0.0;  ///< of the impulses that the cut-off left out: largest channels, summed
-  double biasBound = 0.0;       ///< it took at most this off the picture's mean, W/(m² sr); may be infinite
-  std::uint64_t nonFinite = 0;  ///< samples counted as 0 because a component was not finite
-  std::uint64_t dropped = 0;    ///< rays produced minus rays finished; anything but 0 is a bug
+  double biasBound = 0.0;         ///< on what that took off the mean, W/(m² sr); may be infinite
+  std::uint64_t nonFinite = 0;    ///< samples counted as 0 because a component was not finite
+  std::uint64_t dropped = 0;      ///< rays produced minus rays finished; anything but 0 is a bug
 };
 
 /// One key for each setting, camelCase, as the statistics file names them.

@@ -3,7 +3,7 @@
 // compact_count: shadow rays and impulses in each chunk, and what a cut-off kept from being impulses. scan_chunks:
 // exclusive sums of chunk totals. compact_shadow writes the shadow queue (indices of candidates), compact_impulse the next
 // ray queue.
-#include "lib/math.cl"
+#include "lib/impulses.cl"
 
 #define CHUNKS(count) (((count) + COMPACT_CHUNK - 1) / COMPACT_CHUNK)
 

@@ -72,7 +72,7 @@ INLINE Natural samplePixels(const DeviceCamera* camera, const Batch* batch, uint
 
 __kernel void raygen(const DeviceCamera camera, const Batch batch, const uint count, const uint capacity,
                      __global const uint* pixelOrder,  // [pixels of the picture] y << 16 | x along a space-filling order
-                     __global float* rays) {           // [RAY_PLANES][capacity]
+                     __global float* rays) {           // [RAY_PLANES][capacity]; EYE_… without IMPULSES
   const uint slot = (uint)get_global_id(0) * LANES;
   if (slot >= count) return;
   const DeviceCamera own = camera;
@@ -107,5 +107,7 @@ __kernel void raygen(const DeviceCamera camera, const Batch batch, const uint co
     d = leastTurned(high, low);
   storeReal3(rays, capacity, RAY_O, slot, o);
   storeReal3(rays, capacity, RAY_D, slot, d);
+#if HAS(IMPULSES)
   STORE(AS_REAL(slot + LANE_NUMBERS), rays + (size_t)RAY_SLOT * capacity + slot);
+#endif
 }

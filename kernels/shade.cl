@@ -4,6 +4,7 @@
 // shade_light: the shadow candidate of a further light, one round for each light, so that memory does not grow with them.
 #include "lib/background.cl"
 #include "lib/bsdf.cl"
+#include "lib/impulses.cl"
 #include "lib/light.cl"
 #include "lib/sampler.cl"
 
@@ -172,10 +173,16 @@ typedef struct {
   uint sample[LANES];
 } SampleNames;
 
-INLINE SampleNames sampleNames(const Batch* batch, uint width, __global const uint* pixelOrder, __global const float* slots, uint active) {
+INLINE SampleNames sampleNames(const Batch* batch, uint width, __global const uint* pixelOrder, __global const float* rays, uint capacity,
+                               uint entry, uint active) {
   SampleNames names;
   for (uint k = 0; k < LANES; ++k) {
-    const uint slot = as_uint(slots[k < active ? k : active - 1]);
+    const uint own = entry + (k < active ? k : active - 1);
+#if HAS(IMPULSES)
+    const uint slot = as_uint(rays[(size_t)RAY_SLOT * capacity + own]);
+#else
+    const uint slot = own;
+#endif
     const uint packed = pixelOrder[batch->firstPixel + slot / batch->samples];
     names.place[k] = (packed >> 16) * width + (packed & 0xffffu);
     names.sample[k] = batch->firstSample + slot % batch->samples;
@@ -230,7 +237,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #if HAS(AOVS) || HAS(ONE_IMPULSE)
   const Batch ownBatch = batch;
   const uint active = count - i < LANES ? count - i : LANES;
-  const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays + (size_t)RAY_SLOT * capacity + first + i, active);
+  const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays, capacity, first + i, active);
 #endif
   Natural found = (Natural)(0);
   Real3 radiance = same3((float3)(0.0f));

@@ -117,6 +117,20 @@ struct Level {
   bool branch = false;  ///< the branch at hand may be
 };
 
+/// Features that a line asks for outside of conditions: as a number, or in a macro.
+std::uint64_t askedInLine(std::string_view line) {
+  constexpr std::string_view kHas = "HAS(";
+  if (line.rfind("#define HAS(", 0) == 0) return 0;
+  std::uint64_t asked = 0;
+  for (auto at = line.find(kHas); at != std::string_view::npos; at = line.find(kHas, at + 1)) {
+    const bool isWord =
+        at > 0 && (std::isalnum(static_cast<unsigned char>(line[at - 1])) || line[at - 1] == '_');
+    const auto begin = at + kHas.size();
+    if (!isWord) asked |= std::uint64_t{1} << bitOf(line.substr(begin, line.find(')', begin) - begin));
+  }
+  return asked;
+}
+
 }  // namespace
 
 std::uint64_t askedFeatures(const std::string& source, std::uint64_t bits) {
@@ -139,14 +153,14 @@ std::uint64_t askedFeatures(const std::string& source, std::uint64_t bits) {
     } else if (text.rfind("#if ", 0) == 0) {
       open.push_back({active()});
       enter(open.back(), text.substr(4));
-    } else if (open.empty()) {
-      continue;
-    } else if (text.rfind("#elif ", 0) == 0) {
+    } else if (!open.empty() && text.rfind("#elif ", 0) == 0) {
       enter(open.back(), text.substr(6));
-    } else if (text.rfind("#else", 0) == 0) {
+    } else if (!open.empty() && text.rfind("#else", 0) == 0) {
       open.back().branch = open.back().active && !open.back().taken;
-    } else if (text.rfind("#endif", 0) == 0) {
+    } else if (!open.empty() && text.rfind("#endif", 0) == 0) {
       open.pop_back();
+    } else if (active()) {
+      asked |= askedInLine(text);
     }
   }
   return bits & asked;

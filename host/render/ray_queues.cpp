@@ -13,7 +13,8 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
                      std::uint32_t compactChunk)
     : compute_(compute),
       capacity_(capacity),
-      segmentLimit_(features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity) {
+      segmentLimit_(features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity),
+      rayPlanes_(features.has(Feature::IMPULSES) ? RAY_PLANES : EYE_RAY_PLANES) {
   // A packet reads up to fifteen entries past its segment (into the next plane, or the padding) and ignores
   // them. It writes whole packets from entry 0, which stay inside a plane because the capacity is a multiple.
   assert(capacity % PACKET_RAYS == 0);
@@ -41,7 +42,7 @@ Buffer RayQueues::acquire() {
   if (free_.empty()) {
     ++queuesMade_;
     return compute_.allocate(
-        "rays", (static_cast<std::size_t>(RAY_PLANES) * capacity_ + QUEUE_PADDING) * sizeof(float));
+        "rays", (static_cast<std::size_t>(rayPlanes_) * capacity_ + QUEUE_PADDING) * sizeof(float));
   }
   Buffer queue = std::move(free_.back());
   free_.pop_back();

@@ -48,6 +48,7 @@ class RayQueues {
   Compute& compute_;
   std::uint32_t capacity_;
   std::uint32_t segmentLimit_;
+  std::uint32_t rayPlanes_;  ///< of a ray queue
   std::vector<Buffer> free_;
   std::uint64_t queuesMade_ = 0;
 };

@@ -7,9 +7,6 @@
 // line; in line they take a tenth less time in shade.
 #define INLINE __attribute__((always_inline))
 
-// Sets of impulse planes; RayQueues allocates as many.
-#define IMPULSES_OF_HIT (HAS(BOTH_BRANCHES) ? 2 : 1)
-
 #define PI 3.14159265358979323846f
 
 INLINE float3 load3(__global const float* p) { return (float3)(p[0], p[1], p[2]); }

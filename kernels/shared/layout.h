@@ -140,12 +140,14 @@ WHITTLE_STRUCT(Batch) {
 #define QUEUE_PADDING 16
 
 // Ray queue: origin (m), direction (unit), throughput (RGB; eye rays: not written, it is 1), slot of its
-// sample (uint bits). Entries of one sample are neighbours.
+// sample (uint bits). Entries of one sample are neighbours. Without IMPULSES there are eye rays alone, entry i is
+// that of slot i, and the queue ends before the throughput.
 #define RAY_O 0
 #define RAY_D 3
 #define RAY_THROUGHPUT 6
 #define RAY_SLOT 9
 #define RAY_PLANES 10
+#define EYE_RAY_PLANES 6
 
 // Hits: distance (m), triangle in leaf order (uint bits, NO_HIT), barycentrics b1, b2.
 #define HIT_T 0

@@ -31,6 +31,19 @@ TEST_P(SharedScene, AgreesWithTheReference) {
   }
 }
 
+TEST_P(SharedScene, SpecialisedKernelsGiveTheBitsOfTheWholeOnes) {
+  const auto file = std::filesystem::path(WHITTLE_SHARED) / GetParam().path;
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  const Scene scene = loadScene(file);
+  Settings settings = smallSettings();
+  settings.camera = std::to_string(GetParam().camera);
+  const RenderResult special = renderOnDevice(scene, settings);
+  settings.keepAllFeatures = true;
+  const RenderResult whole = renderOnDevice(scene, settings);
+  EXPECT_EQ(differingPixels(special.radiance, whole.radiance), 0U);
+  EXPECT_EQ(special.stats.rays.total(), whole.stats.rays.total());
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Scenes, SharedScene,
     // Measured in brackets where it is above 5. CornellBox-Original [14] and -Mirror [19]: the light lies in

@@ -56,13 +56,14 @@ lockBuild() {
 }
 unlockBuild() { exec 9>&-; }
 
-# installMissing [ci]: installs what cmake/packages.txt lists and this machine lacks; with `ci` its "ci:" lines too.
+# installMissing [ci|experiments]: installs what cmake/packages.txt lists and this machine lacks; with a word the lines
+# marked with it too.
 installMissing() {
   local name reason wanted=() missing=() admin=()
   command -v dpkg-query >/dev/null || return 0  # not Debian: CMake names what it cannot find
   while read -r name _ reason; do
     [[ -n $name && $name != '#'* ]] || continue
-    [[ $reason == 'ci:'* && ${1-} != ci ]] || wanted+=("$name")
+    [[ $reason =~ ^(ci|experiments): && ${BASH_REMATCH[1]} != "${1-}" ]] || wanted+=("$name")
   done <"$root/cmake/packages.txt"
   local installed
   installed=$'\n'$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null || true)$'\n'

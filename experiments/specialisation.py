@@ -7,7 +7,7 @@ Then the plainest scene with one feature more, for each feature that it does wit
 
 writes: specialisation.tsv, specialisation_features.tsv, specialisation.svg and .png beside this script (--out FOLDER: there)
 usage: experiments/specialisation.py [--quick] [--runs N] [--whittle FILE] [--out FOLDER] [--plot] [SCENE.glb ...]
-       without scenes: our own, generated hills and frame, and shared ones where they are; --plot: draws the data again
+       without scenes: our own, the generated frame, and shared ones where they are; --plot: draws the data again
 needs: Debian's python3-matplotlib; /usr/bin/python3
 """
 import argparse
@@ -21,9 +21,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SHARED = ROOT.parent / "shared" / "scenes"
-SHARED_SCENES = ["gltf/Box/glTF-Binary/Box.glb", "gltf/SpecularTest/glTF-Binary/SpecularTest.glb",
-                 "bench/cornell-mcguire/CornellBox-Original.glb", "bench/teapot-full/teapot-full.glb",
-                 "bench/crytek-sponza/crytek-sponza.glb", "bench/coffee/coffee.glb"]
+SHARED_SCENES = ["gltf/SpecularTest/glTF-Binary/SpecularTest.glb", "bench/cornell-mcguire/CornellBox-Original.glb",
+                 "bench/teapot-full/teapot-full.glb", "bench/crytek-sponza/crytek-sponza.glb"]
 PLAINEST = ROOT / "scenes" / "height_field.glb"
 EVERYTHING = ["--keep-all-features"]
 
@@ -33,12 +32,13 @@ def arguments():
     parser.add_argument("scenes", nargs="*", type=pathlib.Path)
     parser.add_argument("--quick", action="store_true", help="fewer runs, small pictures")
     parser.add_argument("--runs", type=int, help="interleaved runs of each")
+    parser.add_argument("--cold", type=int, default=1, help="compilations with nothing on disk")
     parser.add_argument("--whittle", type=pathlib.Path, default=ROOT / "build" / "release" / "whittle")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent)
     parser.add_argument("--plot", action="store_true", help="measure nothing")
     a = parser.parse_args()
     a.runs = a.runs or (3 if a.quick else 5)
-    a.size = ["--width", "640", "--height", "360"] if a.quick else ["--width", "1280", "--height", "720", "--rays-per-pixel", "4"]
+    a.size = ["--width", "320", "--height", "180"] if a.quick else ["--width", "640", "--height", "360", "--rays-per-pixel", "4"]
     return a
 
 
@@ -100,7 +100,7 @@ def measureScenes(renders, scenes, out):
     for scene in scenes:
         seconds, (special, whole) = renders.interleaved(scene, [[], EVERYTHING])
         frame, frameAll = (statistics.median(s) for s in seconds)
-        cold = [statistics.median(renders.compileSeconds(scene, o) for _ in range(1 if renders.a.quick else 3))
+        cold = [statistics.median(renders.compileSeconds(scene, o) for _ in range(renders.a.cold))
                 for o in ([], EVERYTHING)]
         groups = ["tree", "triangles", "textures", "queues"]
         memory = [megabytes(s, groups) for s in (special, whole)]
@@ -176,7 +176,7 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             scenes = a.scenes
             if not scenes:
-                generated = {"hills_512": ["--heightfield", "512"], "frame": ["--frame"]}
+                generated = {"frame": ["--frame"]}
                 for name, options in generated.items():
                     subprocess.run([a.whittle.parent / "make_scenes", *options, f"{folder}/{name}.glb"], check=True,
                                    stdout=subprocess.DEVNULL)

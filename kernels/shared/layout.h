@@ -140,8 +140,8 @@ WHITTLE_STRUCT(Batch) {
 #define QUEUE_PADDING 16
 
 // Ray queue: origin (m), direction (unit), throughput (RGB; eye rays: not written, it is 1), slot of its
-// sample (uint bits). Entries of one sample are neighbours. Without IMPULSES there are eye rays alone, entry i is
-// that of slot i, and the queue ends before the throughput.
+// sample (uint bits). Entries of one sample are neighbours. Without IMPULSES there are eye rays alone, entry
+// i is that of slot i, and the queue ends before the throughput.
 #define RAY_O 0
 #define RAY_D 3
 #define RAY_THROUGHPUT 6

@@ -95,8 +95,7 @@ std::string needs(const SceneFeatures& features) {
     if (line.used)
       used.push_back(line.text);
     else
-      leftOut += "  " + padded(line.text, 34) + "  " +
-                 wrapped(line.reason, 76 - std::max<std::size_t>(34, columnsOf(line.text)), 38) + "\n";
+      leftOut += "  " + padded(line.text, 36) + "  " + wrapped(line.reason, 40, 40) + "\n";
   }
   return "\nNeeded\n  " +
          wrapped(used.empty() ? "nothing" : fmt::format("{}", fmt::join(used, ", ")), 78, 2) +

@@ -149,7 +149,8 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
                     "how the nearest triangle is found");
   addChoice<Lanes>(c, "--lanes", s.lanes, {{"auto", Lanes::Auto}, {"1", Lanes::One}, {"16", Lanes::Sixteen}},
                    "rays that one work item searches for");
-  c.add_flag("--keep-all-features", s.keepAllFeatures, "compile and run everything, needed or not");
+  c.add_flag("--keep-all-features", s.keepAllFeatures,
+             "compile and run everything that no other option decides, needed or not");
   addText(
       c, "--keep-features", [&s](const std::string& v) { s.keepFeatures = parseFeatures(v); },
       {"LIST", "compile and run these, needed or not: names as `whittle info` has them, with commas", ""});

@@ -35,7 +35,7 @@ const ImageCodec* loadCodec() {
   }
   throw std::runtime_error(
       fmt::format("libwhittle_codec.so, which reads and writes images, cannot be loaded: {}",
-                  problem.empty() ? "it is not beside the program" : problem));
+                  problem.empty() ? "it is neither beside the program nor in ../lib/whittle" : problem));
 }
 
 const ImageCodec& codec() {

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/info_report.h"
 #include "cli/options.h"
+#include "render/camera_to_device.h"
 #include "render/renderer.h"
 
 namespace whittle::cli {

@@ -1,7 +1,12 @@
 // See camera_to_device.h.
 #include "render/camera_to_device.h"
 
+#include <fmt/format.h>
+
+#include <charconv>
 #include <cmath>
+
+#include "scene/input_error.h"
 
 namespace whittle {
 namespace {
@@ -35,6 +40,19 @@ device::DeviceCamera cameraToDevice(const Camera& camera, const Settings& s) {
   d.raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel);
   d.sampler = static_cast<std::uint32_t>(s.sampler);
   return d;
+}
+
+std::size_t findCamera(const Scene& scene, const std::string& selector) {
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+    if (scene.cameras[i].name == selector) return i;
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(selector.data(), selector.data() + selector.size(), index);
+  if (error == std::errc{} && end == selector.data() + selector.size() && index < scene.cameras.size())
+    return index;
+  std::string names;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+    names += fmt::format("{}{} '{}'", i ? ", " : "", i, scene.cameras[i].name);
+  throw InputError(fmt::format("--camera: {} has no camera '{}'; it has {}", scene.file, selector, names));
 }
 
 }  // namespace whittle

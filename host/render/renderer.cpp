@@ -4,11 +4,8 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <future>
 
 #include "bvh/tri_tree.h"
@@ -376,19 +373,6 @@ class Session {
 };
 
 }  // namespace
-
-std::size_t findCamera(const Scene& scene, const std::string& selector) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(selector.data(), selector.data() + selector.size(), index);
-  if (error == std::errc{} && end == selector.data() + selector.size() && index < scene.cameras.size())
-    return index;
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-    if (scene.cameras[i].name == selector) return i;
-  std::string names;
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-    names += fmt::format("{}{} '{}'", i ? ", " : "", i, scene.cameras[i].name);
-  throw InputError(fmt::format("--camera: {} has no camera '{}'; it has {}", scene.file, selector, names));
-}
 
 RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks) {
   return Session(scene, settings, hooks).run();

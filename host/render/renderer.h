@@ -46,7 +46,4 @@ struct RenderHooks {
 /// std::invalid_argument (device).
 RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks = {});
 
-/// The camera with this name or index; throws InputError that lists what there is.
-std::size_t findCamera(const Scene& scene, const std::string& selector);
-
 }  // namespace whittle

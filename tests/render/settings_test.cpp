@@ -1,6 +1,9 @@
 // What settings ask for, and the smallest and strangest pictures.
 #include <cmath>
 
+#include "reference/camera.h"
+#include "render/camera_to_device.h"
+#include "scene/input_error.h"
 #include "single_rays.h"
 
 namespace whittle::test {
@@ -8,6 +11,19 @@ namespace {
 
 bool allFinite(const FloatImage& image) {
   return std::all_of(image.pixels.begin(), image.pixels.end(), [](float v) { return std::isfinite(v); });
+}
+
+/// Kernels and reference must look through the same camera.
+TEST(Settings, ACamerasNameGoesBeforeItsIndex) {
+  Scene scene;
+  scene.cameras.resize(3);
+  scene.cameras[0].name = "first";
+  scene.cameras[2].name = "0";
+  for (const auto& [asked, index] : {std::pair<const char*, std::size_t>{"first", 0}, {"0", 2}, {"1", 1}}) {
+    EXPECT_EQ(findCamera(scene, asked), index) << asked;
+    EXPECT_EQ(&reference::findCamera(scene, asked), &scene.cameras[index]) << asked;
+  }
+  EXPECT_THROW(findCamera(scene, "3"), InputError);
 }
 
 TEST(Settings, OneBounceSendsOutNoImpulses) {

@@ -143,6 +143,7 @@ void writeResults(const RenderOptions& o, RenderResult& result, Clock::time_poin
   for (const auto& file : o.outputs) writePicture(file, result.radiance, o.settings.exposure, metadata);
   for (const auto& aov : o.aovs) writeExr(aov.file, result.aovs.at(aov.name), metadata);
   result.stats.time.write = since(writing);
+  result.stats.phases.push_back({"write", steadySeconds(writing), result.stats.time.write});
   if (trace) {
     trace->phase("write", writing);
     writeTextFile(o.trace, trace->toJson().dump() + "\n");
@@ -177,6 +178,7 @@ void runRender(RenderOptions& o) {
   const double load = since(start);
   RenderResult result = renderWithProgress(scene, o, reference, trace.get());
   result.stats.time.load = load;
+  result.stats.phases.insert(result.stats.phases.begin(), {"load", steadySeconds(start), load});
   if (result.stats.nonFinite > 0)
     fmt::print(stderr, "warning: {} samples were not finite and count as black\n",
                formatInteger(result.stats.nonFinite));

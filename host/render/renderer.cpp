@@ -84,13 +84,13 @@ class Session {
     const auto opening = Clock::now();
     limitCpuThreads(settings_.threads);
     compute_.emplace(selectDevice(listDevices(), settings_.device), memory_);
-    tracePhase("open the device", opening);
+    endPhase("open the device", opening);
     if (settings_.threads > 0)
       tbbLimit_.emplace(tbb::global_control::max_allowed_parallelism, settings_.threads);
     const bool cpu = compute_->device().kind == "cpu";
     const auto deciding = Clock::now();
     use_ = useOf(scene_, settings_);
-    tracePhase("decide what is needed", deciding);
+    endPhase("decide what is needed", deciding);
     features_ = SceneFeatures::analyse(scene_, use_, settings_, {cpu});
     compactChunk_ = cpu ? 1024 : 32;
     workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : defaultWorkGroup(features_);
@@ -145,14 +145,16 @@ class Session {
   void say(const std::string& phase) const {
     if (hooks_.phase) hooks_.phase(phase);
   }
-  void tracePhase(const char* name, Clock::time_point start, Trace::Track track = Trace::Track::Host) const {
-    if (hooks_.trace) hooks_.trace->phase(name, start, track);
+  /// A phase of the host ends now.
+  void endPhase(const char* name, Clock::time_point start) {
+    stats_.phases.push_back({name, steadySeconds(start), secondsSince(start)});
+    if (hooks_.trace) hooks_.trace->phase(name, start);
   }
 
   void prepare() {
     say("compiling kernels");
-    auto programs = std::async(std::launch::async, [this] {
-      const auto start = Clock::now();
+    const auto start = Clock::now();
+    auto programs = std::async(std::launch::async, [this, start] {
       const auto stages = plannedStages(features_, use_.lights.size(), settings_.bounces);
       const CompileTarget target{compactChunk_, workGroup_};
       CompileBeside beside;
@@ -164,11 +166,12 @@ class Session {
       auto built =
           compilePrograms(*compute_, kernelPrograms(features_, stages, hooks_.kernelFolder), target, beside);
       stats_.time.compile = secondsSince(start);
-      tracePhase("compile kernels", start, Trace::Track::Compiler);
+      if (hooks_.trace) hooks_.trace->phase("compile kernels", start, Trace::Track::Compiler);
       return built;
     });
     allocate();
     stages_.emplace(*compute_, programs.get(), workGroup_);
+    stats_.phases.push_back({"compile kernels", steadySeconds(start), stats_.time.compile});
     stages_->record(hooks_.trace);
     const WavefrontSetup setup{features_,
                                deviceScene_,
@@ -208,12 +211,12 @@ class Session {
     start = Clock::now();
     TriTree tree = buildTree(scene_, features_.has(Feature::TREE));
     stats_.time.build = secondsSince(start);
-    tracePhase("build tree", start);
+    endPhase("build tree", start);
     start = Clock::now();
     deviceScene_ = uploadScene(*compute_, scene_, use_, tree, features_);
     queues_.emplace(*compute_, features_, roundedCapacity(settings_), compactChunk_);
     stats_.time.upload = film + secondsSince(start);
-    tracePhase("upload", start);
+    endPhase("upload", start);
     return tree;
   }
 
@@ -269,7 +272,7 @@ class Session {
     }
     clTry("waiting for the last kernels", [&] { compute_->queue().finish(); });
     stats_.time.render = secondsSince(start);
-    tracePhase("render", start);
+    endPhase("render", start);
   }
 
   /// Notes how far the picture is after `seconds`; returns the estimate, 0 where one sample says nothing.
@@ -279,7 +282,7 @@ class Session {
     ErrorPoint point{seconds, samplesDone_, samplesDone_ >= 2 ? estimateError(sums, samplesDone_) : 0.0, {}};
     if (hooks_.reference) point.rmse = rootMeanSquare(resolveFilm(sums, samplesDone_), *hooks_.reference);
     stats_.error.push_back(point);
-    tracePhase("estimate error", start);
+    endPhase("estimate error", start);
     return point.estimate;
   }
 
@@ -335,6 +338,7 @@ class Session {
     stats_.biasBound = biasBound(scene_, settings_, t.cutOff, t.primary);
     stats_.nonFinite = wavefront_->nonFinite();
     stats_.stages = stages_->stats();
+    stats_.bounces = stages_->statsByBounce();
     reportBuffers();
   }
 

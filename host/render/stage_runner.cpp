@@ -2,6 +2,7 @@
 #include "render/stage_runner.h"
 
 #include <algorithm>
+#include <map>
 
 namespace whittle {
 
@@ -24,10 +25,11 @@ cl::Kernel& StageRunner::find(const std::string& name) {
 }
 
 std::size_t StageRunner::stageIndex(const std::string& name) {
-  const auto at =
-      std::find_if(stages_.begin(), stages_.end(), [&](const StageStats& s) { return s.name == name; });
+  const auto at = std::find_if(stages_.begin(), stages_.end(), [&](const StageOfBounce& s) {
+    return s.bounce == bounce_ && s.stage.name == name;
+  });
   if (at != stages_.end()) return static_cast<std::size_t>(at - stages_.begin());
-  stages_.push_back({name, 0, 0.0, 0});
+  stages_.push_back({bounce_, {name, 0, 0.0, 0, 0}});
   return stages_.size() - 1;
 }
 
@@ -46,16 +48,18 @@ void StageRunner::setBuffer(cl::Kernel& kernel, const std::string& name, cl_uint
 }
 
 void StageRunner::launch(const std::string& name, cl::Kernel& kernel, std::uint64_t workItems,
-                         std::uint64_t items) {
+                         StageWork work) {
   const std::size_t global = (workItems + workGroup_ - 1) / workGroup_ * workGroup_;
-  Launch launch{stageIndex(name), {}, items, bounce_};
+  Launch launch{stageIndex(name), {}, work, batch_};
   clTry("launching kernel '" + name + "' on " + compute_.device().name, [&] {
     compute_.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(global), cl::NDRange(workGroup_),
                                           nullptr, &launch.event);
   });
   if (trace_) launch.enqueued = steadySeconds(Trace::Clock::now());
-  stages_[launch.stage].launches += 1;
-  stages_[launch.stage].items += items;
+  StageStats& stage = stages_[launch.stage].stage;
+  stage.launches += 1;
+  stage.items += work.items;
+  stage.bytes += work.bytes;
   launches_.push_back(std::move(launch));
 }
 
@@ -65,7 +69,7 @@ void StageRunner::collect() {
       launch.event.wait();
       const auto start = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
       const auto end = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-      if (end > start) stages_[launch.stage].seconds += static_cast<double>(end - start) * 1e-9;
+      if (end > start) stages_[launch.stage].stage.seconds += static_cast<double>(end - start) * 1e-9;
       if (trace_ && end > start) recordLaunch(launch, start, end);
     }
   });
@@ -78,14 +82,47 @@ void StageRunner::recordLaunch(const Launch& launch, std::uint64_t start, std::u
     const auto queued = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>();
     hostMinusDevice_ = launch.enqueued - static_cast<double>(queued) * 1e-9;
   }
-  trace_->launch({stages_[launch.stage].name, launch.bounce, launch.items,
-                  static_cast<double>(start) * 1e-9 + *hostMinusDevice_,
+  const StageOfBounce& of = stages_[launch.stage];
+  trace_->launch({of.stage.name, launch.batch, of.bounce, launch.work.items, launch.work.bytes,
+                  launch.enqueued, static_cast<double>(start) * 1e-9 + *hostMinusDevice_,
                   static_cast<double>(end) * 1e-9 + *hostMinusDevice_});
 }
 
+namespace {
+
+/// The entry of a name, made if it is not there.
+StageStats& entryOf(std::vector<StageStats>& stages, const std::string& name) {
+  for (auto& s : stages)
+    if (s.name == name) return s;
+  stages.push_back({name, 0, 0.0, 0, 0});
+  return stages.back();
+}
+
+}  // namespace
+
 std::vector<StageStats> StageRunner::stats() {
   collect();
-  return stages_;
+  std::vector<StageStats> all;
+  for (const auto& [bounce, stage] : stages_) {
+    StageStats& sum = entryOf(all, stage.name);
+    sum.launches += stage.launches;
+    sum.seconds += stage.seconds;
+    sum.items += stage.items;
+    sum.bytes += stage.bytes;
+  }
+  return all;
+}
+
+std::vector<BounceStats> StageRunner::statsByBounce() {
+  collect();
+  std::map<std::uint32_t, BounceStats> bounces;
+  for (const auto& [bounce, stage] : stages_) {
+    bounces[bounce].bounce = bounce;
+    bounces[bounce].stages.push_back(stage);
+  }
+  std::vector<BounceStats> list;
+  for (auto& [number, bounce] : bounces) list.push_back(std::move(bounce));
+  return list;
 }
 
 }  // namespace whittle

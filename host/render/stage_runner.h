@@ -21,45 +21,69 @@ namespace whittle {
 /// of every launch.
 int defaultWorkGroup(const SceneFeatures& features);
 
+/// What a launch works on: items as statistics count them, and the bytes of queues and film that it moves
+/// (queue_traffic.h).
+struct StageWork {
+  StageWork(std::uint64_t itemCount, std::uint64_t byteCount = 0) : items(itemCount), bytes(byteCount) {}
+  std::uint64_t items, bytes;
+};
+
 class StageRunner {
  public:
   /// `workGroup` work items at a time; every launch of a kernel uses the same, because PoCL compiles each
   /// anew.
   StageRunner(Compute& compute, const std::vector<cl::Program>& programs, int workGroup);
 
-  /// Runs `kernel` over `workItems` work items. `items` is what statistics count. Arguments in the kernel's
+  /// Runs `kernel` over `workItems` work items. Arguments in the kernel's
   /// order: Buffers (empty ones become null pointers), a DeviceScene (expands to SCENE_PARAMS), or plain
   /// values.
   template <typename... Args>
-  void run(const std::string& kernel, std::uint64_t workItems, std::uint64_t items, const Args&... args) {
+  void run(const std::string& kernel, std::uint64_t workItems, StageWork work, const Args&... args) {
     if (workItems == 0) return;
     cl::Kernel& k = find(kernel);
     cl_uint index = 0;
     (set(k, kernel, index, args), ...);
-    launch(kernel, k, workItems, items);
+    launch(kernel, k, workItems, work);
   }
 
-  /// Keeps every launch for `trace` (null: none, the usual case). Launches count as of `bounce` until it is
-  /// set anew.
+  /// Keeps every launch for `trace` (null: none, the usual case). Launches count as of a batch and a bounce
+  /// until they are set anew.
   void record(Trace* trace) { trace_ = trace; }
+  void setBatch(std::uint32_t batch) { batch_ = batch; }
   void setBounce(std::uint32_t bounce) { bounce_ = bounce; }
+
+  /// Bytes of the stage's last launch in this bounce that only its result tells.
+  void addBytes(const std::string& name, std::uint64_t bytes) {
+    stages_[stageIndex(name)].stage.bytes += bytes;
+  }
+
+  /// Work on the host from now to the end of the scope, for the trace.
+  [[nodiscard]] HostWork hostWork(const char* name) const { return {trace_, name}; }
 
   /// Adds the times of finished launches to the statistics; the queue must be idle.
   void collect();
+  /// Over all bounces, in the order of the first launches.
   std::vector<StageStats> stats();
+  /// Bounce by bounce, from 0.
+  std::vector<BounceStats> statsByBounce();
 
  private:
   struct Launch {
     std::size_t stage;
     cl::Event event;
-    std::uint64_t items = 0;
-    std::uint32_t bounce = 0;
+    StageWork work{0};
+    std::uint32_t batch = 0;
     double enqueued = 0.0;  ///< seconds of the steady clock, right after the launch; only when recording
+  };
+  struct StageOfBounce {
+    std::uint32_t bounce = 0;
+    StageStats stage;
   };
 
   cl::Kernel& find(const std::string& name);
+  /// Of the present bounce.
   std::size_t stageIndex(const std::string& name);
-  void launch(const std::string& name, cl::Kernel& kernel, std::uint64_t workItems, std::uint64_t items);
+  void launch(const std::string& name, cl::Kernel& kernel, std::uint64_t workItems, StageWork work);
   void recordLaunch(const Launch& launch, std::uint64_t start, std::uint64_t end);
   void setBytes(cl::Kernel& kernel, const std::string& name, cl_uint index, std::size_t bytes,
                 const void* value);
@@ -81,10 +105,10 @@ class StageRunner {
   Compute& compute_;
   std::size_t workGroup_;
   std::unordered_map<std::string, cl::Kernel> kernels_;  ///< of all programs
-  std::vector<StageStats> stages_;
+  std::vector<StageOfBounce> stages_;
   std::vector<Launch> launches_;
   Trace* trace_ = nullptr;
-  std::uint32_t bounce_ = 0;
+  std::uint32_t batch_ = 0, bounce_ = 0;
   std::optional<double>
       hostMinusDevice_;  ///< seconds to add to the device's clock; found at the first launch recorded
 };

@@ -1,7 +1,9 @@
 // Statistics as JSON; the names are a contract with scripts.
 #include "render/stats.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/scene_features.h"
 
@@ -72,6 +74,27 @@ nlohmann::ordered_json memoryToJson(const std::vector<BufferStats>& buffers) {
   return memory;
 }
 
+nlohmann::ordered_json stagesToJson(const std::vector<StageStats>& stages) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& stage : stages)
+    list.push_back({{"name", stage.name},
+                    {"launches", stage.launches},
+                    {"seconds", stage.seconds},
+                    {"items", stage.items},
+                    {"bytes", stage.bytes}});
+  return list;
+}
+
+/// Starts count from the first.
+nlohmann::ordered_json phasesToJson(const std::vector<PhaseStats>& phases) {
+  double origin = std::numeric_limits<double>::infinity();
+  for (const auto& p : phases) origin = std::min(origin, p.start);
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& p : phases)
+    list.push_back({{"name", p.name}, {"start", p.start - origin}, {"seconds", p.seconds}});
+  return list;
+}
+
 }  // namespace
 
 nlohmann::ordered_json statsToJson(const Stats& s) {
@@ -99,12 +122,11 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
   json["time"] = {{"load", s.time.load},     {"build", s.time.build},   {"compile", s.time.compile},
                   {"upload", s.time.upload}, {"render", s.time.render}, {"write", s.time.write},
                   {"total", s.time.total}};
-  json["stages"] = nlohmann::ordered_json::array();
-  for (const auto& stage : s.stages)
-    json["stages"].push_back({{"name", stage.name},
-                              {"launches", stage.launches},
-                              {"seconds", stage.seconds},
-                              {"items", stage.items}});
+  json["phases"] = phasesToJson(s.phases);
+  json["stages"] = stagesToJson(s.stages);
+  json["bounces"] = nlohmann::ordered_json::array();
+  for (const auto& b : s.bounces)
+    json["bounces"].push_back({{"bounce", b.bounce}, {"stages", stagesToJson(b.stages)}});
   json["memory"] = memoryToJson(s.buffers);
   json["error"] = nlohmann::ordered_json::array();
   for (const auto& e : s.error)

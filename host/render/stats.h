@@ -17,6 +17,20 @@ struct StageStats {
   std::uint64_t launches = 0;
   double seconds = 0.0;     ///< on the device, from its event counters
   std::uint64_t items = 0;  ///< rays, entries or pixels worked on, not padded work items
+  std::uint64_t bytes = 0;  ///< of queues and film, as queue_traffic.h counts them
+};
+
+/// The launches of one bounce.
+struct BounceStats {
+  std::uint32_t bounce = 0;  ///< 1 = what the eye sees; 0: stages outside the bounces
+  std::vector<StageStats> stages;
+};
+
+/// What the host did when; phases may overlap, the kernel compiler runs beside the tree builder.
+struct PhaseStats {
+  std::string name;
+  double start = 0.0;  ///< seconds of the steady clock
+  double seconds = 0.0;
 };
 
 struct BufferStats {
@@ -55,7 +69,9 @@ struct Stats {
   struct {
     double load = 0, build = 0, compile = 0, upload = 0, render = 0, write = 0, total = 0;  ///< seconds
   } time;
-  std::vector<StageStats> stages;
+  std::vector<PhaseStats> phases;  ///< in the order of their ends
+  std::vector<StageStats> stages;  ///< over all bounces
+  std::vector<BounceStats> bounces;
   std::vector<BufferStats> buffers;
   std::vector<ErrorPoint> error;
   double cutOffThroughput = 0.0;  ///< of the impulses that the cut-off left out: largest channels, summed

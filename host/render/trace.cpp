@@ -18,6 +18,15 @@ nlohmann::ordered_json trackName(Trace::Track track, const char* name) {
           {"args", {{"name", name}}}};
 }
 
+/// The queue that a stage serves: whose entries are its items.
+const char* queueOf(const std::string& stage) {
+  if (stage == "raygen" || stage == "intersect" || stage == "find_long_runs") return "rays";
+  if (stage == "compact_shadow" || stage == "occlude" || stage == "shade_light") return "shadow rays";
+  if (stage == "compact_impulse") return "impulses";
+  if (stage == "film") return "samples";
+  return "hits";
+}
+
 /// To the nanosecond: device clocks tell no more.
 double microseconds(double seconds) { return std::round(seconds * 1e9) * 1e-3; }
 
@@ -58,7 +67,10 @@ nlohmann::ordered_json Trace::toJson() const {
     events.push_back(completeEvent(p.name, "phase", p.track, p.start - origin, p.end - origin));
   for (const auto& l : launches_) {
     events.push_back(completeEvent(l.stage, "kernel", Track::Device, l.start - origin, l.end - origin));
-    events.back()["args"] = {{"bounce", l.bounce}, {"items", l.items}};
+    events.back()["args"] = {
+        {"batch", l.batch},          {"bounce", l.bounce},
+        {"queue", queueOf(l.stage)}, {"items", l.items},
+        {"bytes", l.bytes},          {"waited us", microseconds(std::max(0.0, l.start - l.enqueued))}};
   }
   return {{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}};
 }

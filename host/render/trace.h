@@ -20,9 +20,12 @@ class Trace {
 
   struct Launch {
     std::string stage;
+    std::uint32_t batch = 0;   ///< of the render, from 0
     std::uint32_t bounce = 0;  ///< 1 = what the eye sees; 0: a stage outside the bounces
     std::uint64_t items = 0;
-    double start = 0.0, end = 0.0;  ///< seconds of the steady clock
+    std::uint64_t bytes = 0;  ///< known at the launch (queue_traffic.h)
+    /// Seconds of the steady clock: given to the command queue, begun, done.
+    double enqueued = 0.0, start = 0.0, end = 0.0;
   };
 
   void launch(Launch record) { launches_.push_back(std::move(record)); }
@@ -42,6 +45,24 @@ class Trace {
   std::vector<Launch> launches_;
   std::vector<Phase> phases_;
   std::mutex phasesMutex_;
+};
+
+/// Host work on a trace from its making to the end of its scope; nothing without a trace.
+class HostWork {
+ public:
+  HostWork(Trace* trace, const char* name) : trace_(trace), name_(name) {
+    if (trace_) start_ = Trace::Clock::now();
+  }
+  ~HostWork() {
+    if (trace_) trace_->phase(name_, start_);
+  }
+  HostWork(const HostWork&) = delete;
+  HostWork& operator=(const HostWork&) = delete;
+
+ private:
+  Trace* trace_;
+  const char* name_;
+  Trace::Clock::time_point start_;
 };
 
 /// The steady clock in seconds, as Trace::Launch wants it.

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <utility>
 
+#include "render/queue_traffic.h"
+
 namespace whittle {
 
 Wavefront::Wavefront(Compute& compute, StageRunner& stages, RayQueues& queues, const WavefrontSetup& setup,
@@ -43,17 +45,19 @@ void Wavefront::trace(std::uint32_t firstSample, std::uint32_t samples,
 void Wavefront::traceBatch(const device::Batch& batch) {
   const std::uint32_t count = batch.pixels * batch.samples;
   Buffer queue = queues_.acquire();
+  stages_.setBatch(batchesDone_++);
   stages_.setBounce(0);
   raygen(queue, count);
   traceQueue(std::move(queue), count, 1);
   stages_.setBounce(0);
   film();
+  const auto work = stages_.hostWork("wait and read kernel times");
   stages_.collect();
 }
 
 void Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t bounce) {
   stages_.setBounce(bounce);
-  const auto segments = queues_.cut(queue, count, hasLongRuns(queue, count, bounce));
+  const auto segments = cut(queue, count, bounce);
   for (const Segment& segment : segments) {
     Buffer next;
     const std::uint32_t nextCount = traceSegment(queue, segment, bounce, next);
@@ -67,6 +71,12 @@ void Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t boun
   }
 }
 
+std::vector<Segment> Wavefront::cut(const Buffer& queue, std::uint32_t count, std::uint32_t bounce) {
+  if (count <= queues_.segmentLimit() && !mayHaveLongRuns(count, bounce)) return {{0, count}};
+  const auto work = stages_.hostWork("cut queue");
+  return queues_.cut(queue, count, hasLongRuns(queue, count, bounce));
+}
+
 std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std::uint32_t bounce,
                                       Buffer& next) {
   stages_.setBounce(bounce);
@@ -77,38 +87,47 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
   intersect(queue, segment);
   shade(queue, segment, bounce);
   const Candidates found = countCandidates(segment);
+  stages_.addBytes("shade",
+                   traffic::shadowCandidates(found.shadow) + traffic::impulseCandidates(found.impulse));
   tally_.cutOff[bounce - 1] += found.cutOff;
   occlude(compactShadow(segment, found.shadow));
   for (std::uint32_t light = 1; light < setup_.scene.lightCount; ++light) {
     shadeLight(queue, segment, light);
-    occlude(compactShadow(segment, countCandidates(segment).shadow));
+    const Candidates lit = countCandidates(segment);
+    stages_.addBytes("shade_light", traffic::shadowCandidates(lit.shadow));
+    occlude(compactShadow(segment, lit.shadow));
   }
   if (bounce > 1) accumulate(queue, segment);
   return bounce < setup_.bounces ? compactImpulse(queue, segment, found.impulse, next) : 0;
 }
 
 void Wavefront::raygen(const Buffer& queue, std::uint32_t count) {
-  stages_.run("raygen", laneItems(count), count, setup_.camera, batch_, count, queues_.capacity(),
-              pixelOrder_, queue);
+  const bool slots = setup_.features.has(Feature::IMPULSES);
+  stages_.run("raygen", laneItems(count), {count, traffic::raygen(count, batch_.pixels, slots)},
+              setup_.camera, batch_, count, queues_.capacity(), pixelOrder_, queue);
   tally_.primary += count;
   tally_.produced += count;
 }
 
 void Wavefront::intersect(const Buffer& queue, Segment segment) {
-  stages_.run("intersect", searchItems(segment.count()), segment.count(), setup_.scene, segment.begin,
+  stages_.run("intersect", searchItems(segment.count()),
+              {segment.count(), traffic::intersect(segment.count())}, setup_.scene, segment.begin,
               segment.count(), queues_.capacity(), queue, queues_.hits);
 }
 
 void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce) {
-  stages_.run("shade", laneItems(segment.count()), segment.count(), setup_.scene, setup_.constants, batch_,
-              segment.begin, segment.count(), queues_.capacity(), bounce, setup_.bounces, setup_.camera.width,
-              setup_.camera.width * setup_.camera.height, pixelOrder_, queue, queues_.hits, *radiance_,
-              queues_.shadows, queues_.impulses, queues_.flags, aovs_);
+  const bool throughputs = bounce > 1 && bounce < setup_.bounces;
+  const auto bytes = traffic::shade(segment.count(), throughputs, bool(queues_.flags));
+  stages_.run("shade", laneItems(segment.count()), {segment.count(), bytes}, setup_.scene, setup_.constants,
+              batch_, segment.begin, segment.count(), queues_.capacity(), bounce, setup_.bounces,
+              setup_.camera.width, setup_.camera.width * setup_.camera.height, pixelOrder_, queue,
+              queues_.hits, *radiance_, queues_.shadows, queues_.impulses, queues_.flags, aovs_);
   tally_.finished += segment.count();
 }
 
 void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t light) {
-  stages_.run("shade_light", laneItems(segment.count()), segment.count(), setup_.scene, setup_.constants,
+  stages_.run("shade_light", laneItems(segment.count()),
+              {segment.count(), traffic::shadeLight(segment.count())}, setup_.scene, setup_.constants,
               segment.begin, segment.count(), queues_.capacity(), light, queue, queues_.hits, *radiance_,
               queues_.shadows, queues_.flags);
 }
@@ -116,26 +135,30 @@ void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t l
 Wavefront::Candidates Wavefront::countCandidates(Segment segment) {
   if (!queues_.flags) return {};
   const std::uint32_t chunks = chunksOf(segment);
-  stages_.run("compact_count", chunks, segment.count(), segment.count(), queues_.flags, queues_.totals);
+  stages_.run("compact_count", chunks, {segment.count(), traffic::compactCount(segment.count())},
+              segment.count(), queues_.flags, queues_.totals);
   const std::uint32_t kinds = setup_.features.has(Feature::CUTOFF) ? 3 : 2;
-  stages_.run("scan_chunks", kinds, chunks, chunks, queues_.totals, queues_.sums);
+  stages_.run("scan_chunks", kinds, {chunks, traffic::scanChunks(chunks, kinds)}, chunks, queues_.totals,
+              queues_.sums);
   std::array<std::uint32_t, 4> sums{};
+  const auto work = stages_.hostWork("wait for counts");
   compute_.read(queues_.sums, 0, queues_.sums.bytes, sums.data());
   return {sums[0], sums[1], std::uint64_t{sums[3]} << 32 | sums[2]};
 }
 
 std::uint32_t Wavefront::compactShadow(Segment segment, std::uint32_t found) {
   if (found == 0) return 0;
-  stages_.run("compact_shadow", chunksOf(segment), segment.count(), segment.count(), queues_.flags,
-              queues_.totals, queues_.shadowQueue);
+  stages_.run("compact_shadow", chunksOf(segment),
+              {segment.count(), traffic::compactShadow(segment.count(), found)}, segment.count(),
+              queues_.flags, queues_.totals, queues_.shadowQueue);
   tally_.shadow += found;
   return found;
 }
 
 void Wavefront::occlude(std::uint32_t count) {
   if (count == 0) return;
-  stages_.run("occlude", searchItems(count), count, setup_.scene, count, queues_.capacity(),
-              queues_.shadowQueue, queues_.shadows, *radiance_);
+  stages_.run("occlude", searchItems(count), {count, traffic::occlude(count)}, setup_.scene, count,
+              queues_.capacity(), queues_.shadowQueue, queues_.shadows, *radiance_);
 }
 
 std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, std::uint32_t found,
@@ -143,37 +166,46 @@ std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, st
   if (found == 0) return 0;
   assert(found <= queues_.capacity());
   next = queues_.acquire();
-  stages_.run("compact_impulse", chunksOf(segment), segment.count(), segment.begin, segment.count(),
-              queues_.capacity(), queues_.flags, queues_.totals, queues_.impulses, queue, next);
+  stages_.run("compact_impulse", chunksOf(segment),
+              {segment.count(), traffic::compactImpulse(segment.count(), found)}, segment.begin,
+              segment.count(), queues_.capacity(), queues_.flags, queues_.totals, queues_.impulses, queue,
+              next);
   tally_.impulse += found;
   tally_.produced += found;
   return found;
 }
 
 void Wavefront::accumulate(const Buffer& queue, Segment segment) {
-  stages_.run("accumulate", segment.count(), segment.count(), segment.begin, segment.count(),
-              queues_.capacity(), queue, queues_.entryRadiance, queues_.sampleRadiance);
+  stages_.run("accumulate", segment.count(), {segment.count(), traffic::accumulate(segment.count())},
+              segment.begin, segment.count(), queues_.capacity(), queue, queues_.entryRadiance,
+              queues_.sampleRadiance);
 }
 
 void Wavefront::film() {
   const std::uint32_t pixels = setup_.camera.width * setup_.camera.height;
   const auto planes = static_cast<std::uint32_t>(film_.bytes / sizeof(float) / pixels);
-  stages_.run("film", laneItems(batch_.pixels), batch_.pixels, batch_, queues_.capacity(), pixels, planes,
-              queues_.sampleRadiance, film_, counters_);
+  const auto bytes = traffic::film(batch_.pixels, batch_.samples, planes, batch_.firstSample == 0);
+  stages_.run("film", laneItems(batch_.pixels), {batch_.pixels, bytes}, batch_, queues_.capacity(), pixels,
+              planes, queues_.sampleRadiance, film_, counters_);
 }
 
 std::uint32_t Wavefront::chunksOf(Segment segment) const {
   return (segment.count() + setup_.compactChunk - 1) / setup_.compactChunk;
 }
 
-bool Wavefront::hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint32_t bounce) {
+bool Wavefront::mayHaveLongRuns(std::uint32_t count, std::uint32_t bounce) const {
   // A sample has at most 2^(bounce-1) entries in the queue of a bounce.
-  if (!setup_.features.has(Feature::BOTH_BRANCHES) || count <= LONG_RUN || bounce < 10) return false;
+  return setup_.features.has(Feature::BOTH_BRANCHES) && count > LONG_RUN && bounce >= 10;
+}
+
+bool Wavefront::hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint32_t bounce) {
+  if (!mayHaveLongRuns(count, bounce)) return false;
   const std::uint32_t zero = 0;
   const std::size_t offset = COUNTER_LONG_RUN * sizeof(std::uint32_t);
   clTry("clearing a counter",
         [&] { compute_.queue().enqueueWriteBuffer(counters_.handle, CL_TRUE, offset, sizeof(zero), &zero); });
-  stages_.run("find_long_runs", count, count, count, queues_.capacity(), queue, counters_);
+  stages_.run("find_long_runs", count, {count, traffic::findLongRuns(count)}, count, queues_.capacity(),
+              queue, counters_);
   std::uint32_t found = 0;
   compute_.read(counters_, offset, sizeof(found), &found);
   return found != 0;

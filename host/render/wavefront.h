@@ -72,6 +72,8 @@ class Wavefront {
   void film();
 
   std::uint32_t chunksOf(Segment segment) const;
+  std::vector<Segment> cut(const Buffer& queue, std::uint32_t count, std::uint32_t bounce);
+  bool mayHaveLongRuns(std::uint32_t count, std::uint32_t bounce) const;
   bool hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint32_t bounce);
   /// Work items of a kernel whose items handle LANES entries each.
   std::uint32_t laneItems(std::uint32_t entries) const;
@@ -86,6 +88,7 @@ class Wavefront {
   const Buffer& aovs_;
   Buffer counters_;
   device::Batch batch_{};
+  std::uint32_t batchesDone_ = 0;
   const Buffer* radiance_ = nullptr;  ///< where the segment's entries put theirs
   RayTally tally_;
 };

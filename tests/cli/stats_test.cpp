@@ -27,8 +27,8 @@ Json statsOf(const std::vector<std::string>& more) {
 TEST(Stats, HoldsEveryKeyOfTheContract) {
   const Json s = statsOf({"--rays-per-pixel", "4"});
   expectKeys(s,
-             {"scene", "settings", "device", "features", "rays", "time", "stages", "memory", "error",
-              "biasBound", "nonFinite", "dropped"},
+             {"scene", "settings", "device", "features", "rays", "time", "phases", "stages", "bounces",
+              "memory", "error", "biasBound", "nonFinite", "dropped"},
              "top");
   expectKeys(s["scene"], {"file", "triangles", "materials", "lights", "textures"}, "scene");
   expectKeys(s["settings"],
@@ -71,6 +71,43 @@ TEST(Stats, CountsAddUp) {
   double phases = 0.0;
   for (const char* phase : {"load", "render", "write"}) phases += s["time"][phase].get<double>();
   EXPECT_GE(s["time"]["total"].get<double>(), phases);
+}
+
+TEST(Stats, StagesAreTheSumsOfTheirBounces) {
+  const Json s = statsOf({"--bounces", "5"});
+  ASSERT_GT(s["bounces"].size(), 2U);
+  for (const auto& stage : s["stages"]) {
+    std::uint64_t launches = 0, items = 0, bytes = 0;
+    double seconds = 0.0;
+    for (const auto& bounce : s["bounces"])
+      for (const auto& part : bounce["stages"])
+        if (part["name"] == stage["name"]) {
+          launches += part["launches"].get<std::uint64_t>();
+          items += part["items"].get<std::uint64_t>();
+          bytes += part["bytes"].get<std::uint64_t>();
+          seconds += part["seconds"].get<double>();
+        }
+    EXPECT_EQ(launches, stage["launches"]) << stage["name"];
+    EXPECT_EQ(items, stage["items"]) << stage["name"];
+    EXPECT_EQ(bytes, stage["bytes"]) << stage["name"];
+    EXPECT_GT(bytes, 0U) << stage["name"];
+    EXPECT_NEAR(seconds, stage["seconds"].get<double>(), 1e-9) << stage["name"];
+  }
+}
+
+TEST(Stats, PhasesCoverTheRun) {
+  const Json s = statsOf({});
+  double end = 0.0;
+  std::set<std::string> names;
+  for (const auto& p : s["phases"]) {
+    EXPECT_GE(p["start"].get<double>(), 0.0) << p;
+    end = std::max(end, p["start"].get<double>() + p["seconds"].get<double>());
+    names.insert(p["name"]);
+  }
+  for (const char* name :
+       {"load", "open the device", "compile kernels", "build tree", "upload", "render", "write"})
+    EXPECT_TRUE(names.contains(name)) << name;
+  EXPECT_LE(end, s["time"]["total"].get<double>() + 1e-3);
 }
 
 TEST(Stats, SettingsAreThoseAskedFor) {
@@ -171,6 +208,7 @@ TEST(Trace, HasOneEventForEachLaunchWithBounceAndItems) {
             0);
   const Json trace = readJson(folder / "t.json"), stats = readJson(folder / "s.json");
   std::map<std::string, std::uint64_t> launches, items;
+  std::map<std::pair<std::string, int>, std::uint64_t> itemsOfBounce;
   std::set<std::string> phases;
   double end = 0.0, hostEnd = 0.0;
   for (const auto& e : trace["traceEvents"]) {
@@ -188,7 +226,14 @@ TEST(Trace, HasOneEventForEachLaunchWithBounceAndItems) {
     const int bounce = e["args"]["bounce"];
     EXPECT_EQ(bounce == 0, e["name"] == "raygen" || e["name"] == "film") << e;
     EXPECT_LE(bounce, 8) << e;
+    itemsOfBounce[{e["name"], bounce}] += e["args"]["items"].get<std::uint64_t>();
+    EXPECT_EQ(e["args"]["batch"], 0) << e;
+    EXPECT_FALSE(e["args"]["queue"].get<std::string>().empty()) << e;
+    EXPECT_GE(e["args"]["waited us"].get<double>(), 0.0) << e;
   }
+  for (const auto& b : stats["bounces"])
+    for (const auto& stage : b["stages"])
+      EXPECT_EQ((itemsOfBounce[{stage["name"], b["bounce"]}]), stage["items"]) << stage["name"];
   for (const auto& stage : stats["stages"]) {
     EXPECT_EQ(launches[stage["name"]], stage["launches"]) << stage["name"];
     EXPECT_EQ(items[stage["name"]], stage["items"]) << stage["name"];

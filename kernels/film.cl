@@ -31,13 +31,16 @@ INLINE void storeActive(Real value, __global float* to, uint active) {
   for (uint k = 0; k < active; ++k) to[k] = own[k];
 }
 
-__kernel void film(const Batch batch, const uint capacity, const uint pixels, const uint planes, __global const float* sampleRadiance,
+__kernel void film(const Batch batch, const uint capacity, const uint pixels, const uint planes,
+                   __global const uint* blocks,  // of the film, one for each FILM_BLOCK pixels of the pass; null: pixel by pixel
+                   __global const float* sampleRadiance,
                    __global float* sums,  // [planes][pixels of the picture], in the pixel order: no scattered writes
                    __global uint* counters) {
   const uint k = (uint)get_global_id(0) * LANES;
   if (k >= batch.pixels) return;
   const uint active = batch.pixels - k < LANES ? batch.pixels - k : LANES;
-  __global float* own = sums + batch.firstPixel + k;
+  const uint pixel = batch.firstPixel + k;
+  __global float* own = sums + (blocks ? blocks[pixel / FILM_BLOCK] * FILM_BLOCK + pixel % FILM_BLOCK : pixel);
   Real sum[4], compensation[4];
   for (int c = 0; c < 4; ++c) {
     // Before the first sample the film is 0.
@@ -57,8 +60,7 @@ __kernel void film(const Batch batch, const uint capacity, const uint pixels, co
       for (uint lane = 0; lane < active; ++lane)
         if (lost[lane]) atomic_inc(counters + COUNTER_NONFINITE);
     }
-    const Real y = 0.2126f * value[0] + 0.7152f * value[1] + 0.0722f * value[2];
-    value[3] = y * y;
+    value[3] = (value[0] * value[0] + value[1] * value[1] + value[2] * value[2]) * (1.0f / 3.0f);
     for (int c = 0; c < 4; ++c) {
       Real after = sum[c], lacking = compensation[c];
       compensatedAdd(&after, value[c], &lacking);

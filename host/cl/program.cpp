@@ -39,10 +39,12 @@ Buffer Compute::upload(const std::string& name, const void* data, std::size_t by
   return buffer;
 }
 
-void Compute::write(const Buffer& buffer, const void* data) {
-  if (!buffer.handle()) return;
+void Compute::write(const Buffer& buffer, const void* data) { write(buffer, data, buffer.bytes); }
+
+void Compute::write(const Buffer& buffer, const void* data, std::size_t bytes) {
+  if (!buffer.handle() || bytes == 0) return;
   clTry(fmt::format("uploading '{}'", buffer.name),
-        [&] { queue_.enqueueWriteBuffer(buffer.handle, CL_TRUE, 0, buffer.bytes, data); });
+        [&] { queue_.enqueueWriteBuffer(buffer.handle, CL_TRUE, 0, bytes, data); });
 }
 
 void Compute::read(const Buffer& buffer, std::size_t offset, std::size_t bytes, void* out) {

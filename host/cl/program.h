@@ -43,6 +43,8 @@ class Compute {
   }
   /// Blocking copy of a whole buffer from the host.
   void write(const Buffer& buffer, const void* data);
+  /// Its first `bytes` only.
+  void write(const Buffer& buffer, const void* data, std::size_t bytes);
   /// Blocking copy to the host.
   void read(const Buffer& buffer, std::size_t offset, std::size_t bytes, void* out);
   void fillZero(const Buffer& buffer);

@@ -41,7 +41,12 @@ constexpr int kUntilStopped = 1 << 16;
 
 /// A target or a time limit without --rays-per-pixel means: as many as it takes.
 void settleRaysPerPixel(RenderOptions& o, bool given) {
-  if (given || (o.settings.targetError <= 0.0 && o.settings.timeLimit <= 0.0)) return;
+  if (given) return;
+  if (o.settings.targetError <= 0.0 && o.settings.timeLimit <= 0.0) {
+    if (o.settings.adaptive)
+      throw InputError("--adaptive: give --rays-per-pixel (on average), --target-error or --time-limit");
+    return;
+  }
   if (o.settings.sampler == Sampler::Stratified)
     throw InputError("--sampler: stratified divides each pixel by --rays-per-pixel, which is not given");
   o.settings.raysPerPixel = kUntilStopped;
@@ -53,7 +58,7 @@ void checkOutputs(RenderOptions& o) {
     o.outputs.emplace_back(o.scene.file.stem().string() + ".png");
   OutputCheck check(o.scene.file, o.settings.width, o.settings.height);
   for (const auto& text : o.aovTexts)
-    o.aovs.push_back(parseAov(text, {"depth", "normal", "albedo", "primitive"}));
+    o.aovs.push_back(parseAov(text, {"depth", "normal", "albedo", "primitive", "samples"}));
   for (const auto& file : o.outputs) check.picture("--output", file);
   for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
   check.text("--stats", o.stats);
@@ -93,8 +98,13 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
     if (!o.outputs.empty() && !codec.valid()) codec = std::async(std::launch::async, loadImageCodec);
   };
   hooks.progress = [&](const RenderProgress& p) {
-    bar.update(static_cast<double>(p.samplesDone) / static_cast<double>(p.samplesTotal), p.seconds,
+    bar.update(p.samplesDone / p.samplesTotal, p.seconds,
                formatRate(p.seconds > 0.0 ? static_cast<double>(p.rays) / p.seconds : 0.0));
+  };
+  hooks.note = [&](const std::string& text) {
+    if (o.scene.quiet) return;
+    bar.clear();
+    fmt::print(stderr, "note: {}\n", text);
   };
   try {
     return render(scene, o.settings, hooks);
@@ -201,9 +211,10 @@ void addRender(CLI::App& app, int& status) {
   addSeveral(
       *c, "-o,--output", o->outputs, "FILE",
       ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times [SCENE's name .png]");
-  addSeveral(
-      *c, "--aov", o->aovTexts, "NAME=FILE",
-      "depth|normal|albedo|primitive of each pixel's first sample, as .exr; may be given several times");
+  addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE",
+             "depth|normal|albedo|primitive|samples: of each pixel's first sample, or how many samples it "
+             "has, as .exr; may be "
+             "given several times");
   addFile(*c, "--stats", o->stats, "FILE",
           "statistics as JSON; -: on standard output, instead of the summary");
   c->add_flag("--profile", o->profile, "print time and rate of each stage");
@@ -214,10 +225,10 @@ void addRender(CLI::App& app, int& status) {
   c->option_defaults()->group("Error against time");
   addReal(*c, "--target-error", o->settings.targetError, 0, 1e30, "E",
           "stop once the estimated RMSE in W/(m² sr) is at most this", "0: never");
-  addReal(
-      *c, "--time-limit", o->settings.timeLimit, 0, 1e9, "SECONDS",
-      "start no pass that would end after this much rendering; two samples of each pixel are always taken",
-      "0: none");
+  addReal(*c, "--time-limit", o->settings.timeLimit, 0, 1e9, "SECONDS",
+          "stop rendering after this; every pixel gets one ray, however long that takes", "0: none");
+  c->add_flag("--adaptive", o->settings.adaptive,
+              "more rays where the estimated error is largest, beyond 16 for each pixel");
   addFile(*c, "--reference", o->reference, "FILE",
           "measure the true RMSE against this .exr after each pass, for --stats");
   addDeviceOptions(*c, o->settings);

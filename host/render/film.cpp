@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "kernels/shared/layout.h"
 
@@ -32,32 +34,60 @@ FloatImage gather(int width, int height, const std::vector<float>& planes, int f
 
 std::size_t filmPlanes(int samples) { return samples > 1 ? FILM_PLANES : FILM_PLANES_OF_ONE; }
 
-FloatImage resolveFilm(const FilmSums& sums, int samples) {
+namespace {
+
+/// Where pixel p of the pixel order lies in an image.
+std::size_t placeOf(const FilmSums& sums, std::size_t p) {
+  return static_cast<std::size_t>(sums.pixelOrder[p] >> 16) * sums.width + (sums.pixelOrder[p] & 0xffffU);
+}
+
+/// Of the mean of n samples of pixel p, averaged over the channels.
+double varianceOfMean(const FilmSums& sums, std::size_t p, double n) {
+  double squaredMean = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    const double mean = plane(sums, FILM_SUM + c, FILM_COMPENSATION + c, p) / n;
+    squaredMean += mean * mean / 3.0;
+  }
+  const double meanSquare = plane(sums, FILM_SQUARES, FILM_SQUARES_COMPENSATION, p) / n;
+  return std::max(0.0, meanSquare - squaredMean) / (n - 1.0);
+}
+
+}  // namespace
+
+FloatImage resolveFilm(const FilmSums& sums, const SampleCounts& counts) {
   FloatImage image{sums.width, sums.height, 3, {}};
   const std::size_t pixels = static_cast<std::size_t>(sums.width) * sums.height;
   image.pixels.resize(pixels * 3);
-  const auto at = [&](std::size_t p) {
-    return static_cast<std::size_t>(sums.pixelOrder[p] >> 16) * sums.width + (sums.pixelOrder[p] & 0xffffU);
-  };
-  for (std::size_t p = 0; p < pixels; ++p)
+  for (std::size_t p = 0; p < pixels; ++p) {
+    const double n = std::max(1U, counts.ofPixel(p));
     for (int c = 0; c < 3; ++c)
-      image.pixels[at(p) * 3 + c] =
-          static_cast<float>(plane(sums, FILM_SUM + c, FILM_COMPENSATION + c, p) / samples);
+      image.pixels[placeOf(sums, p) * 3 + c] =
+          static_cast<float>(plane(sums, FILM_SUM + c, FILM_COMPENSATION + c, p) / n);
+  }
   return image;
 }
 
-double estimateError(const FilmSums& sums, int samples) {
-  const std::size_t pixels = static_cast<std::size_t>(sums.width) * sums.height;
-  double total = 0.0;
-  for (std::size_t p = 0; p < pixels; ++p) {
-    const double r = plane(sums, FILM_SUM, FILM_COMPENSATION, p),
-                 g = plane(sums, FILM_SUM + 1, FILM_COMPENSATION + 1, p),
-                 b = plane(sums, FILM_SUM + 2, FILM_COMPENSATION + 2, p);
-    const double mean = (0.2126 * r + 0.7152 * g + 0.0722 * b) / samples;
-    const double squares = plane(sums, FILM_SQUARES, FILM_SQUARES_COMPENSATION, p) / samples;
-    total += std::max(0.0, squares - mean * mean) / (samples - 1);
+std::vector<double> blockVariances(const FilmSums& sums, const SampleCounts& counts) {
+  std::vector<double> variances(counts.blocks(), 0.0);
+  for (std::size_t p = 0; p < counts.pixels(); ++p) {
+    const std::uint32_t n = counts.ofPixel(p);
+    variances[p / FILM_BLOCK] +=
+        n >= 2 ? varianceOfMean(sums, p, n) : std::numeric_limits<double>::infinity();
   }
-  return std::sqrt(total / static_cast<double>(pixels));
+  return variances;
+}
+
+double estimateError(const std::vector<double>& blockVariances, const SampleCounts& counts) {
+  const double total = std::accumulate(blockVariances.begin(), blockVariances.end(), 0.0);
+  return std::sqrt(total / static_cast<double>(counts.pixels()));
+}
+
+FloatImage sampleImage(const FilmSums& sums, const SampleCounts& counts) {
+  FloatImage image{sums.width, sums.height, 1, {}};
+  image.pixels.resize(counts.pixels());
+  for (std::size_t p = 0; p < counts.pixels(); ++p)
+    image.pixels[placeOf(sums, p)] = static_cast<float>(counts.ofPixel(p));
+  return image;
 }
 
 double rootMeanSquare(const FloatImage& picture, const FloatImage& reference) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/sample_counts.h"
 #include "scene/image_io.h"
 
 namespace whittle {
@@ -22,13 +23,20 @@ struct FilmSums {
   std::vector<float> planes;
 };
 
-/// Mean of `samples` samples for each pixel, RGB.
-FloatImage resolveFilm(const FilmSums& sums, int samples);
+/// Mean of each pixel's samples, RGB; 0 where a pixel has none.
+FloatImage resolveFilm(const FilmSums& sums, const SampleCounts& counts);
 
-/// Standard error of the picture from the variance of its samples: the RMS over pixels of the standard
-/// deviation of the luminance mean, W/(m² sr). Needs samples >= 2. It is what independent samples would give;
-/// stratified and Sobol samples do better than it says.
-double estimateError(const FilmSums& sums, int samples);
+/// For each block of pixels, the sum over them of the variance of the pixel's mean, averaged over the
+/// channels, (W/(m² sr))². Needs planes of more than one sample; infinite for a block with fewer than two
+/// samples. It is what independent samples would give; stratified and Sobol samples do better than it says.
+std::vector<double> blockVariances(const FilmSums& sums, const SampleCounts& counts);
+
+/// Standard error of the picture, W/(m² sr): what `rootMeanSquare` to the true picture is expected to be (the
+/// root of its expected square). blockVariances over all pixels.
+double estimateError(const std::vector<double>& blockVariances, const SampleCounts& counts);
+
+/// Samples of each pixel, one channel.
+FloatImage sampleImage(const FilmSums& sums, const SampleCounts& counts);
 
 /// Root mean square difference over the colour channels of two pictures of one size, as `whittle compare`
 /// prints it.

@@ -172,16 +172,16 @@ double cutOffThroughput(const Settings& settings, const std::vector<std::uint64_
   return units * static_cast<double>(settings.cutoff) / CUTOFF_UNITS;
 }
 
-double biasBound(const Scene& scene, const Settings& settings, const std::vector<std::uint64_t>& cutOff,
-                 std::uint64_t samples) {
-  if (std::all_of(cutOff.begin(), cutOff.end(), [](std::uint64_t units) { return units == 0; })) return 0;
+double biasBound(const Scene& scene, const Settings& settings, const std::vector<double>& cutOffPerSample) {
+  if (std::all_of(cutOffPerSample.begin(), cutOffPerSample.end(), [](double units) { return units == 0.0; }))
+    return 0;
   const std::vector<glm::dvec3> bounds = radianceBounds(scene, settings, settings.bounces);
   const double unit = static_cast<double>(settings.cutoff) / CUTOFF_UNITS;
   glm::dvec3 lost(0);
-  for (std::size_t i = 0; i < cutOff.size(); ++i)
+  for (std::size_t i = 0; i < cutOffPerSample.size(); ++i)
     for (int c = 0; c < 3; ++c)
-      lost[c] += times(static_cast<double>(cutOff[i]) * unit, bounds[cutOff.size() - 1 - i][c]);
-  return std::max(lost.x, std::max(lost.y, lost.z)) / static_cast<double>(samples);
+      lost[c] += times(cutOffPerSample[i] * unit, bounds[cutOffPerSample.size() - 1 - i][c]);
+  return std::max(lost.x, std::max(lost.y, lost.z));
 }
 
 }  // namespace whittle

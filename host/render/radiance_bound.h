@@ -16,12 +16,10 @@ namespace whittle {
 /// it, factors of a material outside their range.
 std::vector<glm::dvec3> radianceBounds(const Scene& scene, const Settings& settings, int hits);
 
-/// An upper bound on the mean, over `samples` samples of the picture, of the radiance (largest channel,
-/// W/(m² sr)) that the cut-off left out. cutOff: RayTally::cutOff. 0 where nothing was cut off; infinite
-/// where radianceBounds is. With ImpulseMode::One it bounds the expected radiance, about which the choices
-/// scatter.
-double biasBound(const Scene& scene, const Settings& settings, const std::vector<std::uint64_t>& cutOff,
-                 std::uint64_t samples);
+/// An upper bound on the mean over the picture of the radiance (largest channel, W/(m² sr)) that the cut-off
+/// left out. cutOffPerSample: RayTally::cutOff for each sample. 0 where nothing was cut off; infinite where
+/// radianceBounds is. With ImpulseMode::One it bounds the expected radiance, about which the choices scatter.
+double biasBound(const Scene& scene, const Settings& settings, const std::vector<double>& cutOffPerSample);
 
 /// RayTally::cutOff as throughput: the sum of the largest channels.
 double cutOffThroughput(const Settings& settings, const std::vector<std::uint64_t>& cutOff);

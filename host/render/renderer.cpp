@@ -18,6 +18,7 @@
 #include "render/pixel_order.h"
 #include "render/plan.h"
 #include "render/radiance_bound.h"
+#include "render/sampling_loop.h"
 #include "render/wavefront.h"
 #include "scene/input_error.h"
 
@@ -70,6 +71,9 @@ void checkLimits(const Settings& s) {
   if (!(s.cutoff >= 0.0F && s.cutoff <= kLargestCutoff))
     throw InputError(fmt::format("--cutoff: not from 0 to {}", kLargestCutoff));
   if (s.raysPerPixel < 1) throw InputError("--rays-per-pixel: at least 1");
+  if (s.adaptive && s.sampler == Sampler::Stratified)
+    throw InputError(
+        "--adaptive: stratified samples need the same number in every pixel; use --sampler sobol");
 }
 
 /// Everything a render holds between its phases.
@@ -101,7 +105,7 @@ class Session {
 
   RenderResult run() {
     prepare();
-    passes();
+    samplePicture();
     return finish();
   }
 
@@ -179,7 +183,7 @@ class Session {
                                constantsToDevice(scene_, settings_),
                                static_cast<std::uint32_t>(settings_.bounces),
                                compactChunk_};
-    wavefront_.emplace(*compute_, *stages_, *queues_, setup, pixelOrder_, film_, aovs_);
+    wavefront_.emplace(*compute_, *stages_, *queues_, setup, film_, aovs_);
   }
 
   /// Of the picture, before anything that takes time: too large a picture is refused at once.
@@ -196,6 +200,10 @@ class Session {
     film_ = compute_->allocate("film", film);
     pixelOrder_ = compute_->allocate("pixelOrder", order);
     aovs_ = compute_->allocate("aovs", aovs);
+    if (settings_.adaptive) {
+      passOrder_ = compute_->allocate("passOrder", order);
+      passBlocks_ = compute_->allocate("passBlocks", SampleCounts(pixels).blocks() * sizeof(std::uint32_t));
+    }
     if (memory_ == Compute::Memory::SizesOnly) return;
     pixelOrderTable_ = makePixelOrder(static_cast<std::uint32_t>(settings_.width),
                                       static_cast<std::uint32_t>(settings_.height));
@@ -220,89 +228,24 @@ class Session {
     return tree;
   }
 
-  /// Samples of the next pass: as many as there are so far, as long as they fit into the time that is left;
-  /// 0: none fits any more. `pass` and `seconds`: the last one.
-  int nextPass(double elapsed, int pass, double seconds) const {
-    const int wanted = std::min(std::max(1, samplesDone_), settings_.raysPerPixel - samplesDone_);
-    if (settings_.timeLimit <= 0.0 || samplesDone_ < 2) return wanted;
-    const double fitting = (settings_.timeLimit - elapsed) / std::max(seconds, 1e-9) * pass;
-    return fitting >= wanted ? wanted : std::max(0, static_cast<int>(fitting));
-  }
-
-  /// What the whole will take by the last estimate (the error falls with the root of the samples) and the
-  /// time limit.
-  std::uint64_t expectedSamples(double elapsed) const {
-    double samples = settings_.raysPerPixel;
-    if (settings_.targetError > 0.0 && !stats_.error.empty() && stats_.error.back().estimate > 0.0)
-      samples = std::min(samples, stats_.error.back().raysPerPixel *
-                                      std::pow(stats_.error.back().estimate / settings_.targetError, 2));
-    if (settings_.timeLimit > 0.0 && samplesDone_ > 0)
-      samples = std::min(samples, samplesDone_ * settings_.timeLimit / std::max(elapsed, 1e-9));
-    return static_cast<std::uint64_t>(std::max(samples, 1.0 + samplesDone_));
-  }
-
-  /// All samples in one pass, or in passes that double them where a limit or an error target wants to look in
-  /// between.
-  void passes() {
+  void samplePicture() {
     say("rendering");
     const auto start = Clock::now();
-    const bool looks = settings_.timeLimit > 0.0 || settings_.targetError > 0.0 || hooks_.reference;
-    const int total = settings_.raysPerPixel;
-    const std::uint64_t pixels = static_cast<std::uint64_t>(settings_.width) * settings_.height;
-    int pass = looks ? 1 : total;
-    while (pass > 0 && samplesDone_ < total) {
-      const double began = secondsSince(start);
-      const std::uint64_t before = pixels * static_cast<std::uint64_t>(samplesDone_);
-      const std::uint64_t expected = pixels * expectedSamples(began);
-      wavefront_->trace(static_cast<std::uint32_t>(samplesDone_), static_cast<std::uint32_t>(pass),
-                        [&](std::uint64_t done) {
-                          const auto& t = wavefront_->tally();
-                          if (hooks_.progress)
-                            hooks_.progress({before + done, std::max(expected, before + done),
-                                             secondsSince(start), t.primary + t.impulse + t.shadow});
-                        });
-      samplesDone_ += pass;
-      if (!looks) break;
-      if (samplesDone_ >= 2 || hooks_.reference) {
-        const double estimate = look(secondsSince(start));
-        if (settings_.targetError > 0.0 && samplesDone_ >= 2 && estimate <= settings_.targetError) break;
-      }
-      const double elapsed = secondsSince(start);
-      pass = nextPass(elapsed, pass, elapsed - began);
-    }
-    clTry("waiting for the last kernels", [&] { compute_->queue().finish(); });
-    stats_.time.render = secondsSince(start);
+    loop_.emplace(*compute_, *wavefront_, settings_, hooks_,
+                  FilmBuffers{pixelOrderTable_, pixelOrder_, film_, passOrder_, passBlocks_});
+    loop_->run();
+    stats_.time.render = loop_->seconds();
     endPhase("render", start);
-  }
-
-  /// Notes how far the picture is after `seconds`; returns the estimate, 0 where one sample says nothing.
-  double look(double seconds) {
-    const auto start = Clock::now();
-    const FilmSums sums = readFilm();
-    ErrorPoint point{seconds, samplesDone_, samplesDone_ >= 2 ? estimateError(sums, samplesDone_) : 0.0, {}};
-    if (hooks_.reference) point.rmse = rootMeanSquare(resolveFilm(sums, samplesDone_), *hooks_.reference);
-    stats_.error.push_back(point);
-    endPhase("estimate error", start);
-    return point.estimate;
-  }
-
-  FilmSums readFilm() {
-    FilmSums sums{settings_.width, settings_.height, pixelOrderTable_, {}};
-    sums.planes.resize(film_.bytes / sizeof(float));
-    compute_->read(film_, 0, film_.bytes, sums.planes.data());
-    return sums;
   }
 
   RenderResult finish() {
     RenderResult result;
-    const FilmSums sums = readFilm();
-    result.radiance = resolveFilm(sums, samplesDone_);
-    if (stats_.error.empty() && samplesDone_ >= 2)
-      stats_.error.push_back({stats_.time.render, samplesDone_, estimateError(sums, samplesDone_), {}});
+    result.radiance = loop_->picture();
     if (aovs_) {
       std::vector<float> planes(aovs_.bytes / sizeof(float));
       compute_->read(aovs_, 0, aovs_.bytes, planes.data());
       result.aovs = splitAovs(settings_.width, settings_.height, planes);
+      result.aovs["samples"] = loop_->samples();
     }
     fillStats();
     result.stats = std::move(stats_);
@@ -317,7 +260,9 @@ class Session {
     stats_.scene.lights = scene_.lights.size();
     stats_.scene.textures = scene_.images.size();
     usedSettings();
-    stats_.settings.raysPerPixel = samplesDone_;
+    stats_.settings.raysPerPixel = static_cast<int>(std::lround(loop_->counts().mean()));
+    stats_.samples = {loop_->counts().least(), loop_->counts().most(), loop_->counts().mean()};
+    stats_.error = loop_->error();
     stats_.searchUsed = features_.has(Feature::TREE) ? "tree" : "array";
     const DeviceInfo& d = compute_->device();
     stats_.device = {
@@ -335,7 +280,7 @@ class Session {
     stats_.rays = {t.primary, t.impulse, t.shadow};
     stats_.dropped = t.produced - t.finished;
     stats_.cutOffThroughput = cutOffThroughput(settings_, t.cutOff);
-    stats_.biasBound = biasBound(scene_, settings_, t.cutOff, t.primary);
+    stats_.biasBound = biasBound(scene_, settings_, loop_->cutOffPerSample());
     stats_.nonFinite = wavefront_->nonFinite();
     stats_.stages = stages_->stats();
     stats_.bounces = stages_->statsByBounce();
@@ -351,7 +296,7 @@ class Session {
   void reportBuffers() {
     deviceScene_.report(stats_.buffers);
     queues_->report(stats_.buffers);
-    for (const Buffer* b : {&pixelOrder_, &film_, &aovs_})
+    for (const Buffer* b : {&pixelOrder_, &film_, &aovs_, &passOrder_, &passBlocks_})
       if (*b) stats_.buffers.push_back({b->name, "film", b->bytes});
   }
 
@@ -364,16 +309,16 @@ class Session {
   SceneFeatures features_;
   std::uint32_t compactChunk_ = 0;
   int workGroup_ = 0;
-  int samplesDone_ = 0;
   Stats stats_;
   std::optional<tbb::global_control> tbbLimit_;
   std::optional<Compute> compute_;
   DeviceScene deviceScene_;
   std::vector<std::uint32_t> pixelOrderTable_;
-  Buffer pixelOrder_, film_, aovs_;
+  Buffer pixelOrder_, film_, aovs_, passOrder_, passBlocks_;
   std::optional<RayQueues> queues_;
   std::optional<StageRunner> stages_;
   std::optional<Wavefront> wavefront_;
+  std::optional<SamplingLoop> loop_;
 };
 
 }  // namespace

@@ -17,21 +17,23 @@
 namespace whittle {
 
 struct RenderProgress {
-  std::uint64_t samplesDone = 0, samplesTotal = 0;
-  double seconds = 0.0;  ///< since the first ray
+  double samplesDone = 0.0;   ///< a batch under way counts in part
+  double samplesTotal = 0.0;  ///< as far as limits and targets let one guess
+  double seconds = 0.0;       ///< since the first ray
   std::uint64_t rays = 0;
 };
 
 struct RenderResult {
   FloatImage radiance;  ///< RGB, W/(m² sr)
   std::map<std::string, FloatImage>
-      aovs;     ///< depth (1 channel, m), primitive (1), normal (3, world), albedo (3)
+      aovs;     ///< depth (1 channel, m), primitive (1), normal (3, world), albedo (3), samples (1)
   Stats stats;  ///< time.load, time.write and time.total are the caller's to fill
 };
 
 struct RenderHooks {
   std::function<void(const RenderProgress&)> progress;  ///< now and then, may be empty
   std::function<void(const std::string&)> phase;        ///< "compiling kernels", … may be empty
+  std::function<void(const std::string&)> note;         ///< what the user should know meanwhile; may be empty
   std::optional<std::filesystem::path> kernelFolder;    ///< kernels from here instead of the binary
   const FloatImage* reference =
       nullptr;  ///< of the picture's size: each look at the film says how far it is from this

@@ -53,6 +53,7 @@ nlohmann::ordered_json settingsToJson(const Settings& s) {
           {"mirrorRoughness", s.mirrorRoughness},
           {"keepAllFeatures", s.keepAllFeatures},
           {"keepFeatures", keptFeatures(s)},
+          {"adaptive", s.adaptive},
           {"targetError", s.targetError},
           {"timeLimit", s.timeLimit}};
 }
@@ -83,6 +84,12 @@ nlohmann::ordered_json stagesToJson(const std::vector<StageStats>& stages) {
                     {"items", stage.items},
                     {"bytes", stage.bytes}});
   return list;
+}
+
+/// 4, not 4.0.
+nlohmann::ordered_json wholeIfWhole(double x) {
+  if (x == std::floor(x) && std::fabs(x) < 1e15) return static_cast<std::int64_t>(x);
+  return x;
 }
 
 /// Starts count from the first.
@@ -132,10 +139,12 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
   for (const auto& e : s.error)
     json["error"].push_back(
         {{"seconds", e.seconds},
-         {"raysPerPixel", e.raysPerPixel},
+         {"raysPerPixel", wholeIfWhole(e.raysPerPixel)},
          {"estimate",
           e.raysPerPixel >= 2 ? nlohmann::ordered_json(e.estimate) : nlohmann::ordered_json(nullptr)},
          {"rmse", e.rmse ? nlohmann::ordered_json(*e.rmse) : nlohmann::ordered_json(nullptr)}});
+  json["samples"] = {
+      {"least", s.samples.least}, {"mean", wholeIfWhole(s.samples.mean)}, {"most", s.samples.most}};
   json["cutOffThroughput"] = s.cutOffThroughput;
   json["biasBound"] =
       std::isfinite(s.biasBound) ? nlohmann::ordered_json(s.biasBound) : nlohmann::ordered_json(nullptr);

@@ -41,9 +41,8 @@ struct BufferStats {
 
 struct ErrorPoint {
   double seconds = 0.0;
-  int raysPerPixel = 0;
-  double estimate =
-      0.0;  ///< standard error of the picture: RMS over pixels of the luminance mean's, W/(m² sr)
+  double raysPerPixel = 0.0;  ///< on average
+  double estimate = 0.0;  ///< what rmse is expected to be, from the samples' variance (film.h), W/(m² sr)
   std::optional<double> rmse;  ///< against RenderHooks::reference, all colour channels, W/(m² sr)
 };
 
@@ -76,8 +75,12 @@ struct Stats {
   std::vector<ErrorPoint> error;
   double cutOffThroughput = 0.0;  ///< of the impulses that the cut-off left out: largest channels, summed
   double biasBound = 0.0;         ///< on what that took off the mean, W/(m² sr); may be infinite
-  std::uint64_t nonFinite = 0;    ///< samples counted as 0 because a component was not finite
-  std::uint64_t dropped = 0;      ///< rays produced minus rays finished; anything but 0 is a bug
+  struct {
+    std::uint32_t least = 0, most = 0;
+    double mean = 0.0;
+  } samples;                    ///< of a pixel
+  std::uint64_t nonFinite = 0;  ///< samples counted as 0 because a component was not finite
+  std::uint64_t dropped = 0;    ///< rays produced minus rays finished; anything but 0 is a bug
 };
 
 /// One key for each setting, camelCase, as the statistics file names them.

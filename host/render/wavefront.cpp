@@ -11,64 +11,77 @@
 namespace whittle {
 
 Wavefront::Wavefront(Compute& compute, StageRunner& stages, RayQueues& queues, const WavefrontSetup& setup,
-                     const Buffer& pixelOrder, const Buffer& film, const Buffer& aovs)
-    : compute_(compute),
-      stages_(stages),
-      queues_(queues),
-      setup_(setup),
-      pixelOrder_(pixelOrder),
-      film_(film),
-      aovs_(aovs) {
+                     const Buffer& film, const Buffer& aovs)
+    : compute_(compute), stages_(stages), queues_(queues), setup_(setup), film_(film), aovs_(aovs) {
   counters_ = compute_.allocate("counters", COUNTERS * sizeof(std::uint32_t));
   compute_.fillZero(counters_);
   tally_.cutOff.resize(setup_.bounces);
 }
 
-void Wavefront::trace(std::uint32_t firstSample, std::uint32_t samples,
-                      const std::function<void(std::uint64_t)>& progress) {
-  const std::uint32_t pixels = setup_.camera.width * setup_.camera.height;
+std::uint32_t Wavefront::trace(const TracePass& pass, const KeepGoing& keepGoing) {
+  keepGoing_ = &keepGoing;
+  pixelOrder_ = &pass.order;
   const std::uint32_t room = queues_.segmentLimit();
-  const std::uint32_t samplesAtOnce = std::min(samples, room);
-  const std::uint32_t pixelsAtOnce = std::max(1U, room / samplesAtOnce);
-  std::uint64_t done = 0;
-  for (std::uint32_t pixel = 0; pixel < pixels; pixel += pixelsAtOnce) {
-    for (std::uint32_t sample = 0; sample < samples; sample += samplesAtOnce) {
-      batch_ = {pixel, std::min(pixelsAtOnce, pixels - pixel), firstSample + sample,
-                std::min(samplesAtOnce, samples - sample)};
-      traceBatch(batch_);
-      done += std::uint64_t{batch_.pixels} * batch_.samples;
-      if (progress) progress(done);
+  assert(room >= FILM_BLOCK);
+  // Whole blocks, so that a pass can end between batches.
+  const std::uint32_t samplesAtOnce = std::min(pass.samples, room / FILM_BLOCK);
+  const std::uint32_t pixelsAtOnce = room / samplesAtOnce / FILM_BLOCK * FILM_BLOCK;
+  double done = 0.0;
+  for (std::uint32_t pixel = 0; pixel < pass.pixels; pixel += pixelsAtOnce) {
+    if (!keepGoing.ask(done, true)) return pixel;
+    const std::uint32_t pixels = std::min(pixelsAtOnce, pass.pixels - pixel);
+    for (std::uint32_t sample = 0; sample < pass.samples; sample += samplesAtOnce) {
+      const device::Batch batch{pixel, pixels, pass.firstSample + sample,
+                                std::min(samplesAtOnce, pass.samples - sample)};
+      const double after = done + static_cast<double>(pixels) * batch.samples;
+      mayStop_ = sample == 0;  // later the film has some of the pixels' samples already
+      if (!traceBatch(pass, batch, {done, after})) return pixel;
+      done = after;
     }
   }
+  keepGoing.ask(done, true);
+  return pass.pixels;
 }
 
-void Wavefront::traceBatch(const device::Batch& batch) {
+bool Wavefront::traceBatch(const TracePass& pass, const device::Batch& batch, Share share) {
+  const RayTally before = tally_;
+  batch_ = batch;
   const std::uint32_t count = batch.pixels * batch.samples;
   Buffer queue = queues_.acquire();
   stages_.setBatch(batchesDone_++);
   stages_.setBounce(0);
   raygen(queue, count);
-  traceQueue(std::move(queue), count, 1);
+  const bool whole = traceQueue(std::move(queue), count, 1, share);
   stages_.setBounce(0);
-  film();
+  if (whole)
+    film(pass.blocks);
+  else
+    tally_ = before;
   const auto work = stages_.hostWork("wait and read kernel times");
   stages_.collect();
+  return whole;
 }
 
-void Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t bounce) {
+bool Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t bounce, Share share) {
   stages_.setBounce(bounce);
   const auto segments = cut(queue, count, bounce);
+  double from = share.from;
+  bool whole = true;
   for (const Segment& segment : segments) {
     Buffer next;
-    const std::uint32_t nextCount = traceSegment(queue, segment, bounce, next);
+    const std::uint32_t nextCount = whole ? traceSegment(queue, segment, bounce, next) : 0;
+    const double to = share.from + (share.to - share.from) * segment.end / count;
     // The queue of the last segment is free before the next bounce: two queues serve a path that is never
     // cut.
     if (segment.end == count) queues_.release(std::move(queue));
     if (nextCount > 0)
-      traceQueue(std::move(next), nextCount, bounce + 1);
+      whole = traceQueue(std::move(next), nextCount, bounce + 1, {from, to});
     else if (next)
       queues_.release(std::move(next));
+    from = to;
+    if (!keepGoing_->ask(to, false) && mayStop_) whole = false;
   }
+  return whole;
 }
 
 std::vector<Segment> Wavefront::cut(const Buffer& queue, std::uint32_t count, std::uint32_t bounce) {
@@ -104,7 +117,7 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
 void Wavefront::raygen(const Buffer& queue, std::uint32_t count) {
   const bool slots = setup_.features.has(Feature::IMPULSES);
   stages_.run("raygen", laneItems(count), {count, traffic::raygen(count, batch_.pixels, slots)},
-              setup_.camera, batch_, count, queues_.capacity(), pixelOrder_, queue);
+              setup_.camera, batch_, count, queues_.capacity(), *pixelOrder_, queue);
   tally_.primary += count;
   tally_.produced += count;
 }
@@ -120,7 +133,7 @@ void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce
   const auto bytes = traffic::shade(segment.count(), throughputs, bool(queues_.flags));
   stages_.run("shade", laneItems(segment.count()), {segment.count(), bytes}, setup_.scene, setup_.constants,
               batch_, segment.begin, segment.count(), queues_.capacity(), bounce, setup_.bounces,
-              setup_.camera.width, setup_.camera.width * setup_.camera.height, pixelOrder_, queue,
+              setup_.camera.width, setup_.camera.width * setup_.camera.height, *pixelOrder_, queue,
               queues_.hits, *radiance_, queues_.shadows, queues_.impulses, queues_.flags, aovs_);
   tally_.finished += segment.count();
 }
@@ -181,12 +194,12 @@ void Wavefront::accumulate(const Buffer& queue, Segment segment) {
               queues_.sampleRadiance);
 }
 
-void Wavefront::film() {
+void Wavefront::film(const Buffer& blocks) {
   const std::uint32_t pixels = setup_.camera.width * setup_.camera.height;
   const auto planes = static_cast<std::uint32_t>(film_.bytes / sizeof(float) / pixels);
   const auto bytes = traffic::film(batch_.pixels, batch_.samples, planes, batch_.firstSample == 0);
   stages_.run("film", laneItems(batch_.pixels), {batch_.pixels, bytes}, batch_, queues_.capacity(), pixels,
-              planes, queues_.sampleRadiance, film_, counters_);
+              planes, blocks, queues_.sampleRadiance, film_, counters_);
 }
 
 std::uint32_t Wavefront::chunksOf(Segment segment) const {

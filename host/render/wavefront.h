@@ -35,24 +35,44 @@ struct WavefrontSetup {
   std::uint32_t compactChunk;
 };
 
+/// Samples [firstSample, firstSample + samples) of `pixels` pixels. Without `blocks` pixel i is i of the
+/// picture's order, and `order` is that; with them they are whole film blocks (layout.h), `order` their
+/// pixels only.
+struct TracePass {
+  const Buffer& order;
+  const Buffer& blocks;
+  std::uint32_t pixels = 0, firstSample = 0, samples = 0;
+};
+
+/// Asked between segments and batches; false: stop.
+struct KeepGoing {
+  /// Samples of the pass that are finished, in parts: a batch under way counts as far as its rays have come.
+  /// `betweenBatches`: nothing is lost by stopping here.
+  std::function<bool(double samplesDone, bool betweenBatches)> ask;
+};
+
 class Wavefront {
  public:
-  /// `film`, `aovs`, `pixelOrder`: of the whole picture. `aovs` may be empty.
+  /// `film`, `aovs`: of the whole picture. `aovs` may be empty.
   Wavefront(Compute& compute, StageRunner& stages, RayQueues& queues, const WavefrontSetup& setup,
-            const Buffer& pixelOrder, const Buffer& film, const Buffer& aovs);
+            const Buffer& film, const Buffer& aovs);
 
-  /// Traces samples [firstSample, firstSample + samples) of every pixel and adds them to the film; the
-  /// picture's bits do not depend on how samples are split into calls. `progress(samplesDone)` is called
-  /// after each batch.
-  void trace(std::uint32_t firstSample, std::uint32_t samples,
-             const std::function<void(std::uint64_t)>& progress);
+  /// Traces a pass and adds it to the film; returns how many of its pixels have all their samples: all of
+  /// them, or, where it was told to stop, whole film blocks. The picture's bits do not depend on how samples
+  /// are split into passes.
+  std::uint32_t trace(const TracePass& pass, const KeepGoing& keepGoing);
 
   const RayTally& tally() const { return tally_; }
   std::uint32_t nonFinite();
 
  private:
-  void traceBatch(const device::Batch& batch);
-  void traceQueue(Buffer queue, std::uint32_t count, std::uint32_t bounce);
+  /// The part of a pass that a queue's rays stand for, for progress.
+  struct Share {
+    double from = 0.0, to = 0.0;
+  };
+  /// False: stopped, and the film is as before.
+  bool traceBatch(const TracePass& pass, const device::Batch& batch, Share share);
+  bool traceQueue(Buffer queue, std::uint32_t count, std::uint32_t bounce, Share share);
   std::uint32_t traceSegment(const Buffer& queue, Segment segment, std::uint32_t bounce, Buffer& next);
 
   void raygen(const Buffer& queue, std::uint32_t count);
@@ -69,7 +89,7 @@ class Wavefront {
   void occlude(std::uint32_t count);
   std::uint32_t compactImpulse(const Buffer& queue, Segment segment, std::uint32_t found, Buffer& next);
   void accumulate(const Buffer& queue, Segment segment);
-  void film();
+  void film(const Buffer& blocks);
 
   std::uint32_t chunksOf(Segment segment) const;
   std::vector<Segment> cut(const Buffer& queue, std::uint32_t count, std::uint32_t bounce);
@@ -83,11 +103,13 @@ class Wavefront {
   StageRunner& stages_;
   RayQueues& queues_;
   WavefrontSetup setup_;
-  const Buffer& pixelOrder_;
+  const Buffer* pixelOrder_ = nullptr;  ///< of the pass
   const Buffer& film_;
   const Buffer& aovs_;
   Buffer counters_;
   device::Batch batch_{};
+  const KeepGoing* keepGoing_ = nullptr;
+  bool mayStop_ = false;
   std::uint32_t batchesDone_ = 0;
   const Buffer* radiance_ = nullptr;  ///< where the segment's entries put theirs
   RayTally tally_;

@@ -35,7 +35,8 @@ struct Settings {
   float mirrorRoughness = 0.2F;  ///< a surface smoother than this reflects and refracts as a mirror
   bool keepAllFeatures = false;
   std::uint64_t keepFeatures = 0;  ///< bits of kernels/shared/features.h that are kept, needed or not
-  double timeLimit = 0.0;          ///< seconds of rendering; no pass starts that would end later; 0: none
+  bool adaptive = false;           ///< more samples where the picture's error is; raysPerPixel on average
+  double timeLimit = 0.0;          ///< seconds of rendering, but one ray for each pixel at least; 0: none
   double targetError = 0.0;        ///< stop once the estimated RMSE of the picture is below; 0: never
   bool aovs = false;               ///< keep depth, normal, albedo and primitive of each pixel's first sample
   float exposure = 0.0F;           ///< stops, for .png/.jpg only

@@ -1,0 +1,188 @@
+// Doubling passes: each look at the error costs a read of the film, so that there are few.
+#include "render/sampling_loop.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cl/error.h"
+
+namespace whittle {
+namespace {
+
+/// Samples of each pixel before some get more than others.
+constexpr std::uint32_t kPilotSamples = 16;
+/// Of the samples so far, what an adaptive round gives out: small enough that blocks can part ways, large
+/// enough that looks are few (growth of a quarter: 12 looks for 16 times the samples).
+constexpr std::uint64_t kRoundsToDouble = 4;
+/// How long a batch may go on after the limit; what it has done is lost if it takes longer.
+constexpr double kLateShare = 0.1, kLateSeconds = 0.25;
+
+}  // namespace
+
+SamplingLoop::SamplingLoop(Compute& compute, Wavefront& wavefront, const Settings& settings,
+                           const RenderHooks& hooks, const FilmBuffers& buffers)
+    : compute_(compute),
+      wavefront_(wavefront),
+      settings_(settings),
+      hooks_(hooks),
+      buffers_(buffers),
+      counts_(buffers.orderTable.size()),
+      cutOffShares_(static_cast<std::size_t>(settings.bounces), 0.0) {}
+
+bool SamplingLoop::looks() const {
+  return settings_.timeLimit > 0.0 || settings_.targetError > 0.0 || settings_.adaptive || hooks_.reference;
+}
+
+void SamplingLoop::run() {
+  start_ = Clock::now();
+  bool stopped = false;
+  for (auto passes = nextPasses(); !passes.empty(); passes = nextPasses()) {
+    const double began = elapsed();
+    for (const SamplePass& pass : passes) {
+      stopped = !tracePass(pass);
+      if (stopped) break;
+    }
+    if (passes.size() == 1) passSamples_ = passes.front().samples, passSeconds_ = elapsed() - began;
+    if (looks()) look();
+    if (stopped) break;
+    if (settings_.targetError > 0.0 && counts_.least() >= 2 &&
+        error_.back().estimate <= settings_.targetError)
+      break;
+  }
+  clTry("waiting for the last kernels", [&] { compute_.queue().finish(); });
+  seconds_ = elapsed();
+  if (error_.empty() && counts_.least() >= 2) look();
+}
+
+std::vector<SamplePass> SamplingLoop::nextPasses() const {
+  const auto wanted = static_cast<std::uint64_t>(settings_.raysPerPixel) * counts_.pixels();
+  const std::uint64_t done = counts_.total();
+  if (done >= wanted) return {};
+  if (settings_.adaptive && counts_.least() >= kPilotSamples)
+    return adaptivePasses(counts_, variances_, std::min(wanted - done, done / kRoundsToDouble));
+  const std::uint32_t samples = nextSamples();
+  if (samples == 0) return {};
+  return {uniformPass(counts_, samples)};
+}
+
+/// Samples of each pixel in the next pass: as many as there are so far, as long as they fit into the time
+/// that is left; 0: none fits any more.
+std::uint32_t SamplingLoop::nextSamples() const {
+  const auto total = static_cast<std::uint32_t>(settings_.raysPerPixel);
+  const std::uint32_t done = counts_.least();
+  if (!looks()) return total;
+  const std::uint32_t wanted = std::min(std::max(1U, done), total - done);
+  if (settings_.timeLimit <= 0.0 || done == 0) return wanted;
+  const double fitting =
+      (settings_.timeLimit - elapsed()) / std::max(passSeconds_, 1e-9) * static_cast<double>(passSamples_);
+  return fitting >= wanted ? wanted : static_cast<std::uint32_t>(std::max(0.0, fitting));
+}
+
+bool SamplingLoop::tracePass(const SamplePass& pass) {
+  if (pass.blocks.size() == counts_.blocks()) {
+    const Buffer none;
+    return traceWith(pass, {buffers_.order, none, static_cast<std::uint32_t>(counts_.pixels()),
+                            pass.firstSample, pass.samples});
+  }
+  std::vector<std::uint32_t> order;
+  for (const std::uint32_t block : pass.blocks) {
+    const auto first = buffers_.orderTable.begin() + static_cast<std::ptrdiff_t>(block) * FILM_BLOCK;
+    order.insert(order.end(), first, first + counts_.pixelsOf(block));
+  }
+  compute_.write(buffers_.passOrder, order.data(), order.size() * sizeof(std::uint32_t));
+  compute_.write(buffers_.passBlocks, pass.blocks.data(), pass.blocks.size() * sizeof(std::uint32_t));
+  return traceWith(pass, {buffers_.passOrder, buffers_.passBlocks, static_cast<std::uint32_t>(order.size()),
+                          pass.firstSample, pass.samples});
+}
+
+/// False: stopped, with the samples of the blocks that were finished.
+bool SamplingLoop::traceWith(const SamplePass& pass, const TracePass& launches) {
+  const std::vector<std::uint64_t> cutOffBefore = wavefront_.tally().cutOff;
+  const KeepGoing ask{[this](double samples, bool between) { return keepGoing(samples, between); }};
+  const std::uint32_t pixels = wavefront_.trace(launches, ask);
+  const std::size_t blocks = (pixels + FILM_BLOCK - 1) / FILM_BLOCK;
+  for (std::size_t b = 0; b < blocks; ++b) counts_.add(pass.blocks[b], pass.samples);
+  // A pixel's mean holds a sample with the weight 1 / (samples in the end), which is at most 1 / (samples so
+  // far).
+  const double weight = 1.0 / (static_cast<double>(counts_.pixels()) * (pass.firstSample + pass.samples));
+  for (std::size_t b = 0; b < cutOffShares_.size(); ++b)
+    cutOffShares_[b] += weight * static_cast<double>(wavefront_.tally().cutOff[b] - cutOffBefore[b]);
+  return pixels == launches.pixels;
+}
+
+std::vector<double> SamplingLoop::cutOffPerSample() const {
+  if (counts_.least() != counts_.most()) return cutOffShares_;
+  std::vector<double> shares;
+  for (const std::uint64_t units : wavefront_.tally().cutOff)
+    shares.push_back(static_cast<double>(units) / static_cast<double>(counts_.total()));
+  return shares;
+}
+
+bool SamplingLoop::keepGoing(double samplesOfPass, bool betweenBatches) {
+  reportProgress(static_cast<double>(counts_.total()) + samplesOfPass);
+  const double limit = settings_.timeLimit, now = elapsed();
+  if (limit <= 0.0 || now <= limit) return true;
+  if (counts_.least() > 0)
+    return !betweenBatches && now <= limit + std::max(kLateShare * limit, kLateSeconds);
+  if (!saidLate_ && hooks_.note && samplesOfPass > 0.0 && now > 2.0 * limit + 1.0) {
+    saidLate_ = true;
+    const double share = samplesOfPass / static_cast<double>(counts_.pixels());
+    hooks_.note(fmt::format(
+        "the time limit has passed, but {:.0f} % of the pixels have no ray yet; about {:.0f} s more. "
+        "--cutoff 0.001, --impulses one or fewer --bounces make rays cheaper",
+        std::ceil(100.0 * (1.0 - share)), now / share - now));
+  }
+  return true;
+}
+
+void SamplingLoop::reportProgress(double samples) {
+  if (!hooks_.progress) return;
+  const RayTally& t = wavefront_.tally();
+  hooks_.progress(
+      {samples, std::max(expectedSamples(), samples), elapsed(), t.primary + t.impulse + t.shadow});
+}
+
+/// Of the picture, what the whole will take by the last estimate (the error falls with the root of the
+/// samples) and the time limit.
+double SamplingLoop::expectedSamples() const {
+  const double done = static_cast<double>(counts_.total()), pixels = static_cast<double>(counts_.pixels());
+  double samples = pixels * settings_.raysPerPixel;
+  if (settings_.targetError > 0.0 && !error_.empty() && error_.back().estimate > 0.0)
+    samples = std::min(samples, done * std::pow(error_.back().estimate / settings_.targetError, 2));
+  if (settings_.timeLimit > 0.0 && done > 0.0)
+    samples = std::min(samples, done * settings_.timeLimit / std::max(elapsed(), 1e-9));
+  return std::max(samples, pixels + done);
+}
+
+/// Notes how far the picture is. One sample for each pixel says nothing of its error.
+void SamplingLoop::look() {
+  const HostWork work(hooks_.trace, "estimate error");
+  const bool estimates = counts_.least() >= 2;
+  if (!estimates && !hooks_.reference) return;
+  const double now = seconds_ > 0.0 ? seconds_ : elapsed();
+  const FilmSums sums = readFilm();
+  ErrorPoint point{now, counts_.mean(), 0.0, {}};
+  if (estimates) {
+    variances_ = blockVariances(sums, counts_);
+    point.estimate = estimateError(variances_, counts_);
+  }
+  if (hooks_.reference) point.rmse = rootMeanSquare(resolveFilm(sums, counts_), *hooks_.reference);
+  error_.push_back(point);
+}
+
+FilmSums SamplingLoop::readFilm() {
+  FilmSums sums{settings_.width, settings_.height, buffers_.orderTable, {}};
+  sums.planes.resize(buffers_.film.bytes / sizeof(float));
+  compute_.read(buffers_.film, 0, buffers_.film.bytes, sums.planes.data());
+  return sums;
+}
+
+FloatImage SamplingLoop::picture() { return resolveFilm(readFilm(), counts_); }
+
+FloatImage SamplingLoop::samples() {
+  return sampleImage({settings_.width, settings_.height, buffers_.orderTable, {}}, counts_);
+}
+
+}  // namespace whittle

@@ -1,0 +1,77 @@
+// The passes over a picture: how many samples which pixels get next, until the count, a time limit or an
+// error target is reached; what is known of the error after each.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cl/program.h"
+#include "render/film.h"
+#include "render/renderer.h"
+#include "render/sample_counts.h"
+#include "render/wavefront.h"
+
+namespace whittle {
+
+/// The picture on the device. With Settings::adaptive `passOrder` and `passBlocks` have room for all pixels
+/// and blocks.
+struct FilmBuffers {
+  std::span<const std::uint32_t> orderTable;  ///< y << 16 | x
+  const Buffer& order;
+  const Buffer& film;
+  const Buffer& passOrder;
+  const Buffer& passBlocks;
+};
+
+class SamplingLoop {
+ public:
+  SamplingLoop(Compute& compute, Wavefront& wavefront, const Settings& settings, const RenderHooks& hooks,
+               const FilmBuffers& buffers);
+
+  /// Renders. Each pixel gets its first sample whatever the time limit; after that nothing goes on for longer
+  /// than a tenth of it, or a quarter of a second.
+  void run();
+
+  const SampleCounts& counts() const { return counts_; }
+  double seconds() const { return seconds_; }  ///< that run took
+  const std::vector<ErrorPoint>& error() const { return error_; }
+  /// The picture, after run.
+  FloatImage picture();
+  FloatImage samples();
+  /// RayTally::cutOff for each sample, so weighted that biasBound holds for the mean over the pixels.
+  std::vector<double> cutOffPerSample() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool looks() const;
+  std::vector<SamplePass> nextPasses() const;
+  std::uint32_t nextSamples() const;
+  bool tracePass(const SamplePass& pass);
+  bool traceWith(const SamplePass& pass, const TracePass& launches);
+  bool keepGoing(double samplesOfPass, bool betweenBatches);
+  void reportProgress(double samples);
+  double expectedSamples() const;
+  void look();
+  FilmSums readFilm();
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  Compute& compute_;
+  Wavefront& wavefront_;
+  const Settings& settings_;
+  const RenderHooks& hooks_;
+  FilmBuffers buffers_;
+  SampleCounts counts_;
+  Clock::time_point start_{};
+  double seconds_ = 0.0;
+  double passSeconds_ = 0.0;       ///< the last uniform pass
+  std::uint32_t passSamples_ = 0;  ///< of each pixel, then
+  bool saidLate_ = false;
+  std::vector<double> variances_;     ///< of blocks, at the last look
+  std::vector<double> cutOffShares_;  ///< bound for passes of some blocks only
+  std::vector<ErrorPoint> error_;
+};
+
+}  // namespace whittle

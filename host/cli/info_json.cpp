@@ -45,8 +45,9 @@ Json lightsJson(const Scene& scene) {
 }
 
 Json featuresJson(const SceneFeatures& features, const Trimmed& trimmed) {
-  Json json{{"used", Json::array()}, {"leftOut", Json::array()}};
+  Json json{{"used", Json::array()}, {"kept", Json::array()}, {"leftOut", Json::array()}};
   for (const auto& line : features.lines()) {
+    if (line.kept) json["kept"].push_back(line.text);
     if (line.used)
       json["used"].push_back(line.text);
     else

@@ -9,9 +9,9 @@
 #include <limits>
 #include <sstream>
 
+#include "cli/feature_names.h"
 #include "cli/option_kinds.h"
 #include "cli/text.h"
-#include "render/scene_features.h"
 #include "scene/gltf_loader.h"
 #include "scene/image_io.h"
 #include "scene/input_error.h"
@@ -65,27 +65,6 @@ void applyBackground(Scene& scene, const std::string& text) {
     throw InputError(fmt::format("--background: '{}': radiance must be finite and not negative", text));
   scene.background = {};
   scene.background.radiance = radiance;
-}
-
-/// Bits of "normal map, metal", as `whittle info` calls them; "" gives none.
-std::uint64_t parseFeatures(const std::string& text) {
-  std::uint64_t bits = 0;
-  std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ',');) {
-    word.erase(0, word.find_first_not_of(' '));
-    word.erase(word.find_last_not_of(' ') + 1);
-    std::vector<std::string> names;
-    for (const Feature f : allFeatures()) {
-      names.emplace_back(featureText(f));
-      if (word == names.back()) bits |= std::uint64_t{1} << static_cast<int>(f);
-    }
-    if (std::find(names.begin(), names.end(), word) != names.end()) continue;
-    const std::string near = closestWord(word, names);
-    throw InputError(
-        fmt::format("--keep-features: no feature is called '{}'; {}`whittle info SCENE` names them all", word,
-                    near.empty() ? "" : fmt::format("did you mean '{}'? ", near)));
-  }
-  return bits;
 }
 
 }  // namespace
@@ -152,7 +131,7 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
   c.add_flag("--keep-all-features", s.keepAllFeatures,
              "compile and run everything that no other option decides, needed or not");
   addText(
-      c, "--keep-features", [&s](const std::string& v) { s.keepFeatures = parseFeatures(v); },
+      c, "--keep-features", [&s](const std::string& v) { s.keepFeatures = parseFeatureNames("--keep-features", v); },
       {"LIST", "compile and run these, needed or not: names as `whittle info` has them, with commas", ""});
 }
 

@@ -16,6 +16,7 @@
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
 #include "cli/text.h"
+#include "render/feature_needs.h"
 #include "render/renderer.h"
 
 namespace whittle::cli {
@@ -172,6 +173,7 @@ void runRender(RenderOptions& o) {
   limitCpuThreads(o.settings.threads);
 
   Notices notices;
+  notices.notes = uselessKeeps(o.settings);
   const Scene scene = loadScene(o.scene, notices);
   if (trace) trace->phase("load", start);
   const double load = since(start);

@@ -326,6 +326,7 @@ class Session {
         stats_.featuresUsed.push_back(line.text);
       else
         stats_.featuresLeftOut.emplace_back(line.text, line.reason);
+      if (line.kept) stats_.featuresKept.push_back(line.text);
     }
     stats_.trimmed = use_.trimmed;
     const RayTally& t = wavefront_->tally();

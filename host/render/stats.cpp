@@ -88,6 +88,7 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
                     {"version", s.device.version},           {"driver", s.device.driver},
                     {"computeUnits", s.device.computeUnits}, {"threads", s.device.threads}};
   json["features"]["used"] = s.featuresUsed;
+  json["features"]["kept"] = s.featuresKept;
   json["features"]["leftOut"] = nlohmann::ordered_json::array();
   for (const auto& [name, reason] : s.featuresLeftOut)
     json["features"]["leftOut"].push_back({{"name", name}, {"reason", reason}});

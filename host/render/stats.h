@@ -46,6 +46,7 @@ struct Stats {
     int threads = 0;
   } device;
   std::vector<std::string> featuresUsed;
+  std::vector<std::string> featuresKept;  ///< those of them that the scene does not need
   std::vector<std::pair<std::string, std::string>> featuresLeftOut;  ///< name, reason
   Trimmed trimmed;                                                   ///< what of the scene stays on the host
   struct {

@@ -42,6 +42,30 @@ TEST(Info, EveryFeatureIsUsedOrLeftOutForAReason) {
   EXPECT_EQ(infoOf({scene(), "--keep-all-features", "--bounces", "1"})["file"], scene());
 }
 
+TEST(Info, KeptFeaturesHaveASectionOfTheirOwn) {
+  const std::vector<std::string> keep{"--keep-features", "Normal Map"};
+  const Json features = infoOf({scene(), keep[0], keep[1]})["features"];
+  EXPECT_EQ(features["kept"], Json({"textures", "first UV set", "normal map"}));
+  EXPECT_EQ(infoOf({scene()})["features"]["kept"], Json::array());
+  std::set<std::string> used;
+  for (const auto& name : features["used"]) used.insert(name);
+  for (const auto& name : features["kept"]) EXPECT_TRUE(used.contains(name)) << name;
+  const std::string text = runWhittle({"info", scene(), keep[0], keep[1]}).out;
+  const auto needed = text.find("\nNeeded\n"), kept = text.find("\nKept because asked for\n"),
+             leftOut = text.find("\nLeft out\n"), named = text.find("normal map");
+  ASSERT_TRUE(needed < kept && kept < leftOut && leftOut != std::string::npos) << text;
+  EXPECT_TRUE(kept < named && named < leftOut) << text;
+  EXPECT_NE(text.find("textures (needed by normal map)"), std::string::npos) << text;
+}
+
+TEST(Info, SaysWhichKeptFeaturesASettingRulesOut) {
+  const Outcome run = runWhittle({"info", scene(), "--no-shadows", "--keep-features", "shadow rays"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.err.find("note: --keep-features: 'shadow rays' stays out: shadows are switched off\n"),
+            std::string::npos)
+      << run.err;
+}
+
 /// The plan is a promise: stages and buffers of a real render are those that info names.
 class Plan : public testing::TestWithParam<std::vector<std::string>> {};
 
@@ -76,12 +100,14 @@ TEST_P(Plan, IsWhatARenderDoes) {
     EXPECT_EQ(bytes[b["name"]], b["bytes"]) << b["name"];
   }
   EXPECT_EQ(info["features"]["used"], stats["features"]["used"]);
+  EXPECT_EQ(info["features"]["kept"], stats["features"]["kept"]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cli, Plan,
                          testing::Values(std::vector<std::string>{scene()},
                                          std::vector<std::string>{scene(), "--no-shadows"},
                                          std::vector<std::string>{scene(), "--bounces", "1"},
+                                         std::vector<std::string>{scene(), "--keep-features", "alpha mask"},
                                          std::vector<std::string>{scene("emission.glb")},
                                          std::vector<std::string>{scene("textured.glb")},
                                          std::vector<std::string>{scene("spot_cone.glb")}));

@@ -39,7 +39,7 @@ TEST(Stats, HoldsEveryKeyOfTheContract) {
               "aov",          "quiet"},
              "settings");
   expectKeys(s["device"], {"platform", "name", "version", "driver", "computeUnits", "threads"}, "device");
-  expectKeys(s["features"], {"used", "leftOut"}, "features");
+  expectKeys(s["features"], {"used", "kept", "leftOut"}, "features");
   expectKeys(s["rays"], {"primary", "impulse", "shadow", "total"}, "rays");
   expectKeys(s["time"], {"load", "build", "compile", "upload", "render", "write", "total"}, "time");
   expectKeys(s["memory"], {"tree", "triangles", "queues", "textures", "film", "total"}, "memory");

@@ -71,7 +71,13 @@ void applyBackground(Scene& scene, const std::string& text) {
 
 void addSceneOptions(CLI::App& c, SceneOptions& o) {
   c.option_defaults()->group("Scene");
-  c.add_option("SCENE", o.file, "glTF 2.0 file, .gltf or .glb")->required()->type_name("");
+  const auto setFile = [&o](const std::string& word) {
+    if (word.empty()) throw InputError("SCENE: the name is empty; it is a .gltf or .glb file");
+    o.file = word;
+  };
+  c.add_option_function<std::string>("SCENE", setFile, "glTF 2.0 file, .gltf or .glb")
+      ->required()
+      ->type_name("");
   addText(c, "--scene", [&o](const std::string& v) { o.scene = v; },
           {"NAME|INDEX", "which scene of the file", "the file's default"});
   addText(c, "--background", [&o](const std::string& v) { o.background = v; },
@@ -94,7 +100,7 @@ void addPictureOptions(CLI::App& c, Settings& s) {
   addWhole(c, "--bounces", s.bounces, 1, 4096, "N", "backward tracing steps; 1 = direct light only");
   addReal(c, "--cutoff", s.cutoff, 0, kLargestCutoff, "T",
           "trace no mirror or glass ray whose share of the picture (throughput) is at most this in every "
-          "colour; --stats says what that can cost (biasBound)",
+          "colour; --stats says what that can cost (biasBound beside meanRadiance)",
           "0: trace them all");
   addWhole(c, "--rays-per-pixel", s.raysPerPixel, 1, 1 << 24, "N",
            "primary rays; 1 = through the pixel's centre");
@@ -130,9 +136,13 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
                    "rays that one work item searches for");
   c.add_flag("--keep-all-features", s.keepAllFeatures,
              "compile and run everything that no other option decides, needed or not");
-  addText(
-      c, "--keep-features", [&s](const std::string& v) { s.keepFeatures = parseFeatureNames("--keep-features", v); },
-      {"LIST", "compile and run these, needed or not: names as `whittle info` has them, with commas", ""});
+  addText(c, "--keep-features",
+          [&s](const std::string& v) { s.keepFeatures = parseFeatureNames("--keep-features", v); },
+          {"LIST",
+           "compile and run these and what they need, whatever the scene needs: names as `whittle info` has "
+           "them, with "
+           "commas",
+           ""});
 }
 
 Scene loadScene(const SceneOptions& options, Notices& notices) {

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cl/device.h"
+#include "cli/build_failure.h"
 #include "cli/commands.h"
 #include "cli/option_kinds.h"
 #include "cli/options.h"
@@ -99,6 +100,8 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
   };
   try {
     return render(scene, o.settings, hooks);
+  } catch (const BuildError& e) {
+    explainBuildFailure(e, o.kernelFolder);
   } catch (const std::invalid_argument& e) {
     // With nothing asked for, a machine without a device is no wrong usage.
     if (!o.settings.device.empty()) throw;

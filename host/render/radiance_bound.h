@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/image_io.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
@@ -22,6 +23,9 @@ std::vector<glm::dvec3> radianceBounds(const Scene& scene, const Settings& setti
 /// scatter.
 double biasBound(const Scene& scene, const Settings& settings, const std::vector<std::uint64_t>& cutOff,
                  std::uint64_t samples);
+
+/// The mean of a picture in its brightest channel, W/(m² sr): what biasBound bounds a change of.
+double meanRadiance(const FloatImage& radiance);
 
 /// RayTally::cutOff as throughput: the sum of the largest channels.
 double cutOffThroughput(const Settings& settings, const std::vector<std::uint64_t>& cutOff);

@@ -294,6 +294,7 @@ class Session {
     RenderResult result;
     const FilmSums sums = readFilm();
     result.radiance = resolveFilm(sums, samplesDone_);
+    stats_.meanRadiance = meanRadiance(result.radiance);
     if (stats_.error.empty() && samplesDone_ >= 2)
       stats_.error.push_back({stats_.time.render, samplesDone_, estimateError(sums, samplesDone_), {}});
     if (aovs_) {

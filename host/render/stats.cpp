@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "render/json_float.h"
 #include "render/scene_features.h"
 
 namespace whittle {
@@ -33,9 +34,9 @@ nlohmann::ordered_json settingsToJson(const Settings& s) {
   return {{"width", s.width},
           {"height", s.height},
           {"camera", s.camera},
-          {"exposure", s.exposure},
+          {"exposure", jsonFloat(s.exposure)},
           {"bounces", s.bounces},
-          {"cutoff", s.cutoff},
+          {"cutoff", jsonFloat(s.cutoff)},
           {"raysPerPixel", s.raysPerPixel},
           {"shadows", s.shadows},
           {"search", toString(s.search)},
@@ -47,8 +48,8 @@ nlohmann::ordered_json settingsToJson(const Settings& s) {
           {"lanes", toString(s.lanes)},
           {"wavefront", s.wavefront},
           {"workGroup", s.workGroup},
-          {"bump", s.bump ? nlohmann::ordered_json(*s.bump) : nlohmann::ordered_json(nullptr)},
-          {"mirrorRoughness", s.mirrorRoughness},
+          {"bump", s.bump ? nlohmann::ordered_json(jsonFloat(*s.bump)) : nlohmann::ordered_json(nullptr)},
+          {"mirrorRoughness", jsonFloat(s.mirrorRoughness)},
           {"keepAllFeatures", s.keepAllFeatures},
           {"keepFeatures", keptFeatures(s)},
           {"targetError", s.targetError},
@@ -118,6 +119,7 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
   json["cutOffThroughput"] = s.cutOffThroughput;
   json["biasBound"] =
       std::isfinite(s.biasBound) ? nlohmann::ordered_json(s.biasBound) : nlohmann::ordered_json(nullptr);
+  json["meanRadiance"] = s.meanRadiance;
   json["nonFinite"] = s.nonFinite;
   json["dropped"] = s.dropped;
   return json;

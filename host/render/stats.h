@@ -61,6 +61,7 @@ struct Stats {
   std::vector<ErrorPoint> error;
   double cutOffThroughput = 0.0;  ///< of the impulses that the cut-off left out: largest channels, summed
   double biasBound = 0.0;         ///< on what that took off the mean, W/(m² sr); may be infinite
+  double meanRadiance = 0.0;      ///< of the picture, in the brightest channel, W/(m² sr)
   std::uint64_t nonFinite = 0;    ///< samples counted as 0 because a component was not finite
   std::uint64_t dropped = 0;      ///< rays produced minus rays finished; anything but 0 is a bug
 };

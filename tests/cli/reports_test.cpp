@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "cli/text.h"
 #include "run_whittle.h"
 #include "scene/image_io.h"
 
@@ -28,6 +29,16 @@ TEST(Info, TextHasItsSections) {
   for (const char* part : {"What is in it", "Needed", "Left out", "Stages that will run", "Buffers on ",
                            "1 camera", "2 lights", "perspective", "no texture images"})
     EXPECT_NE(run.out.find(part), std::string::npos) << part << " in:\n" << run.out;
+}
+
+TEST(Info, TextFitsATerminal) {
+  for (const char* name : {"cornell_box.glb", "textured.glb", "height_field.glb"})
+    for (const char* keep :
+         {"", "normal map,absorption,sobol sampler,shadows through transparent surfaces"}) {
+      std::istringstream text(
+          runWhittle({"info", scene(name), "--bounces", "1", "--keep-features", keep}).out);
+      for (std::string line; std::getline(text, line);) EXPECT_LE(cli::columnsOf(line), 80U) << line;
+    }
 }
 
 TEST(Info, EveryFeatureIsUsedOrLeftOutForAReason) {

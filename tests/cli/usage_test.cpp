@@ -160,8 +160,8 @@ TEST(UsageOfFiles, WhatMayNotBeReadSaysSo) {
   const std::string as = isRoot ? "setpriv --reuid 65534 --clear-groups " : "";
   if (isRoot && runShell(as + "\"$WHITTLE\" --version").status != 0)
     GTEST_SKIP() << "no other user to run as";
-  for (const std::string& args : {"info a.glb", "compare a.glb a.glb", "info \"$SCENE\" --background a.glb",
-                                  "render \"$SCENE\" --reference a.glb --stats -"}) {
+  for (const char* args : {"info a.glb", "compare a.glb a.glb", "info \"$SCENE\" --background a.glb",
+                           "render \"$SCENE\" --reference a.glb --stats -"}) {
     const Outcome run = runShell(as + "\"$WHITTLE\" " + args, {folder.path(), {{"SCENE", scene()}}});
     EXPECT_EQ(run.status, 2) << args;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;

@@ -57,6 +57,7 @@ class Bench {
   }
 
   BenchResult run() {
+    result_.launchSeconds = measureLaunch();
     RaySet eye = eyeRays(scene_, static_cast<std::size_t>(options_.rays));
     const auto eyeHits = measure(eye);
     measure(shadowRays(scene_, eye, eyeHits));
@@ -117,6 +118,14 @@ class Bench {
     out.reset();
     out = std::make_unique<EmbreeYardstick>(scene_, robust, options_.threads);
     return out->buildSeconds();
+  }
+
+  double measureLaunch() {
+    QueryRunner& kernel = *kernels_.front();
+    kernel.load(eyeRays(scene_, 1));
+    std::vector<Runner> runner{{[&] { return kernel.nearest(); }, {}}};
+    race(runner, options_.runs);
+    return median(runner.front().seconds);
   }
 
   /// Kernels that take part, the renderer's choice first.

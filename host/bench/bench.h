@@ -47,6 +47,7 @@ struct BenchResult {
   std::string device;
   double buildSeconds = 0;
   double bytesPerTriangle = 0;        ///< tree and triangles as the searches read them
+  double launchSeconds = 0;           ///< of a query of one ray: what a launch costs
   double embreeSeconds = 0;           ///< build in medium quality: fast, or robust where only that competes
   std::vector<KernelMemory> kernels;  ///< every kernel, whether it takes part or not
   std::vector<BenchRow> rows;

@@ -73,6 +73,18 @@ Box boxOf(const Scene& scene) {
   return box;
 }
 
+/// With half of its longest side instead of each that is a thousandth of it or less.
+Box withoutFlatSides(Box box) {
+  const glm::dvec3 size = box.hi - box.lo;
+  const double longest = std::max({size.x, size.y, size.z});
+  for (int a = 0; a < 3; ++a)
+    if (size[a] <= 1e-3 * longest) {
+      const double missing = 0.5 * longest - size[a];
+      box.lo[a] -= 0.5 * missing, box.hi[a] += 0.5 * missing;
+    }
+  return box;
+}
+
 glm::dvec3 lightPosition(const Scene& scene) {
   for (const Light& light : scene.lights)
     if (light.kind != LightKind::Directional) return glm::dvec3(light.position);
@@ -157,7 +169,7 @@ RaySet cosineRays(const Scene& scene, const RaySet& from, const std::vector<Quer
 RaySet uniformRays(const Scene& scene, std::size_t count) {
   RaySet rays{"uniform", {}, {}, {}};
   if (scene.triangles.empty()) return rays;
-  const Box box = boxOf(scene);
+  const Box box = withoutFlatSides(boxOf(scene));
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 u(hashUnit(i, 2), hashUnit(i, 3), hashUnit(i, 4));
     rays.add(glm::vec3(box.lo + u * (box.hi - box.lo)),

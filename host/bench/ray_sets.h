@@ -42,7 +42,9 @@ RaySet mirrorRays(const Scene& scene, const RaySet& from, const std::vector<Quer
 RaySet refractedRays(const Scene& scene, const RaySet& from, const std::vector<QueryHit>& hits);
 RaySet cosineRays(const Scene& scene, const RaySet& from, const std::vector<QueryHit>& hits);
 
-/// Origins anywhere in the box of the triangles, directions anywhere on the sphere.
+/// Origins anywhere in the box of the triangles, directions anywhere on the sphere. A flat box is made
+/// thicker: rays that start in a triangle hit it at distance 0, which is no hit to a renderer and one to
+/// Embree.
 RaySet uniformRays(const Scene& scene, std::size_t count);
 
 }  // namespace whittle

@@ -2,8 +2,24 @@
 #include "cl/error.h"
 
 #include <array>
+#include <sstream>
 
 namespace whittle {
+
+BuildError::BuildError(const std::string& doing, std::string log)
+    : ClError(doing + ": " + firstError(log)), log_(std::move(log)) {}
+
+std::string firstError(const std::string& log) {
+  std::istringstream lines(log);
+  std::string first;
+  for (std::string line; std::getline(lines, line);) {
+    line.erase(0, line.find_first_not_of(" \t"));
+    line.erase(line.find_last_not_of(" \t\r") + 1);
+    if (line.find("error:") != std::string::npos) return line;
+    if (first.empty()) first = line;
+  }
+  return first.empty() ? "the compiler does not say why" : first;
+}
 
 std::string clErrorName(cl_int error) {
   struct Named {

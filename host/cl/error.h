@@ -15,6 +15,19 @@ class ClError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Kernels that do not compile: one line with the compiler's first error, and all that it said.
+class BuildError : public ClError {
+ public:
+  BuildError(const std::string& doing, std::string log);
+  const std::string& log() const { return log_; }
+
+ private:
+  std::string log_;
+};
+
+/// The first line of a compiler's log that is an error, else the first that says anything.
+std::string firstError(const std::string& log);
+
 /// CL_OUT_OF_RESOURCES and so on; "error -9999" for unknown numbers.
 std::string clErrorName(cl_int error);
 

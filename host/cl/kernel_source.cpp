@@ -1,10 +1,12 @@
 // Pastes kernel files together; see the header.
 #include "cl/kernel_source.h"
 
+#include <cerrno>
 #include <fstream>
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 namespace whittle {
 namespace {
@@ -35,8 +37,12 @@ class Assembler {
  private:
   std::string read(const std::string& path) const {
     if (folder_) {
-      std::ifstream in(*folder_ / path);
-      if (!in) throw std::runtime_error("kernel file " + (*folder_ / path).string() + " cannot be read");
+      const std::filesystem::path file = *folder_ / path;
+      errno = std::filesystem::is_directory(file) ? EISDIR : 0;
+      std::ifstream in(file);
+      if (!in || errno == EISDIR)
+        throw std::runtime_error("kernel file " + file.string() +
+                                 " cannot be read: " + std::generic_category().message(errno));
       return {std::istreambuf_iterator<char>(in), {}};
     }
     const auto found = embeddedKernelFiles().find(path);

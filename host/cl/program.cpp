@@ -60,8 +60,9 @@ void Compute::fillZero(const Buffer& buffer) {
   });
 }
 
-cl::Program Compute::build(const std::string& source, const std::string& options) {
-  return clTry("compiling the kernels", [&] {
+cl::Program Compute::build(const std::string& source, const std::string& options, const std::string& name) {
+  const std::string doing = "compiling " + name;
+  return clTry(doing, [&] {
     cl::Program program(context_, source);
     try {
       program.build({device_.device}, options.c_str());
@@ -69,8 +70,9 @@ cl::Program Compute::build(const std::string& source, const std::string& options
       std::string log;
       if (e.err() == CL_BUILD_PROGRAM_FAILURE)
         log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.device);
-      throw ClError(fmt::format("compiling the kernels on {} ({}) failed with {}:\n{}", device_.name, options,
-                                clErrorName(e.err()), log));
+      const std::string failed =
+          fmt::format("{} on {} failed with {}", doing, device_.name, clErrorName(e.err()));
+      throw BuildError(failed, fmt::format("{}\noptions: {}\n", log, options));
     }
     buildLog_ = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.device);
     return program;

@@ -49,9 +49,10 @@ class Compute {
   void read(const Buffer& buffer, std::size_t offset, std::size_t bytes, void* out);
   void fillZero(const Buffer& buffer);
 
-  /// Builds `source`; a failure throws ClError with the build log. Warnings of the compiler are kept in
-  /// buildLog().
-  cl::Program build(const std::string& source, const std::string& options);
+  /// Builds `source`, which messages call `name`; a failure throws BuildError. Warnings of the compiler are
+  /// kept in buildLog().
+  cl::Program build(const std::string& source, const std::string& options,
+                    const std::string& name = "the kernels");
   const std::string& buildLog() const { return buildLog_; }
 
  private:

@@ -107,9 +107,11 @@ int runApplication(int argc, const char* const* argv) {
     fmt::print(stderr, "{}", app.help());
     return 2;
   }
-  checkCommand(app, argv[1]);
+  // `whittle -- render …`: what follows is no option of the program, which has none to speak of.
+  const int skipped = argv[1] == std::string("--") && argc > 2 ? 1 : 0;
+  checkCommand(app, argv[1 + skipped]);
   try {
-    app.parse(argc, argv);
+    app.parse(argc - skipped, argv + skipped);
   } catch (const CLI::Success& e) {
     status = app.exit(e);  // --help, --version
   } catch (const CLI::ParseError& e) {

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "bench/embree_yardstick.h"
 #include "cl/device.h"
+#include "cli/build_failure.h"
 #include "cli/commands.h"
 #include "cli/option_kinds.h"
 #include "cli/options.h"
@@ -52,6 +54,7 @@ void printJson(const BenchCommand& o, const BenchResult& r) {
                                     {"triangles", r.triangles},
                                     {"threads", r.threads},
                                     {"device", r.device},
+                                    {"launchSeconds", r.launchSeconds},
                                     {"build", build},
                                     {"kernels", kernels},
                                     {"rows", rows}};
@@ -59,7 +62,7 @@ void printJson(const BenchCommand& o, const BenchResult& r) {
 }
 
 void printTable(const BenchResult& r) {
-  fmt::print("{} triangles, {}, {}\n", formatInteger(r.triangles),
+  fmt::print("{}, {}, {}\n", formatSome(r.triangles, "triangle", "triangles"),
              formatSome(static_cast<std::uint64_t>(r.threads), "thread", "threads"), r.device);
   fmt::print("tree: {:.3f} s, {:.0f} bytes for each triangle", r.buildSeconds, r.bytesPerTriangle);
   if (haveEmbree()) fmt::print("; Embree: {:.3f} s", r.embreeSeconds);
@@ -81,6 +84,21 @@ void printTable(const BenchResult& r) {
   if (!haveEmbree()) fmt::print("\nThis build has no Embree to compare with.\n");
 }
 
+/// Says where rates are of launches rather than of rays.
+void noteShortRows(const BenchResult& r) {
+  constexpr double kNoticeable = 0.2;  // of a row's time
+  const auto isShort = [&](const BenchRow& row) {
+    return r.launchSeconds > kNoticeable * static_cast<double>(row.count) / (row.mraysPerSecond * 1e6);
+  };
+  const auto count = static_cast<std::size_t>(std::count_if(r.rows.begin(), r.rows.end(), isShort));
+  if (count > 0)
+    fmt::print(stderr,
+               "note: {} of {} rows have so few rays that launching a kernel ({:.0f} µs) takes a fifth of "
+               "their time "
+               "or more; --rays asks for more\n",
+               count, r.rows.size(), r.launchSeconds * 1e6);
+}
+
 void runBenchCommand(BenchCommand& o) {
   Notices notices;
   if (!o.kernelFolder.empty()) o.bench.kernelFolder = o.kernelFolder;
@@ -89,12 +107,17 @@ void runBenchCommand(BenchCommand& o) {
   {
     ProgressBar bar(o.scene.quiet);
     o.bench.phase = [&](const std::string& text) { bar.phase(text); };
-    result = runBench(scene, o.bench);
+    try {
+      result = runBench(scene, o.bench);
+    } catch (const BuildError& e) {
+      explainBuildFailure(e, o.kernelFolder);
+    }
   }
   if (o.json)
     printJson(o, result);
   else
     printTable(result);
+  if (!o.scene.quiet) noteShortRows(result);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "cli/info_report.h"
 #include "cli/options.h"
 #include "render/camera_to_device.h"
+#include "render/feature_needs.h"
 #include "render/renderer.h"
 
 namespace whittle::cli {
@@ -23,6 +24,7 @@ struct InfoOptions {
 /// would do.
 void runInfo(const InfoOptions& o) {
   Notices notices;
+  notices.notes = uselessKeeps(o.settings);
   const Scene scene = loadScene(o.scene, notices);
   findCamera(scene, o.settings.camera);
   limitCpuThreads(o.settings.threads);

@@ -2,15 +2,16 @@
 #include <cmath>
 
 #include "cli/info_report.h"
+#include "render/json_float.h"
 
 namespace whittle::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json toJson(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+Json toJson(const glm::vec3& v) { return {jsonFloat(v.x), jsonFloat(v.y), jsonFloat(v.z)}; }
 /// JSON has no infinity: null for "no limit".
-Json finiteOrNull(float value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json finiteOrNull(float value) { return std::isfinite(value) ? Json(jsonFloat(value)) : Json(nullptr); }
 
 Json camerasJson(const Scene& scene) {
   Json cameras = Json::array();
@@ -20,7 +21,7 @@ Json camerasJson(const Scene& scene) {
                        {"position", toJson(c.position)},
                        {"forward", toJson(c.forward)},
                        {"up", toJson(c.up)}});
-    cameras.back()[c.orthographic ? "ymag" : "yfov"] = c.orthographic ? c.ymag : c.yfov;
+    cameras.back()[c.orthographic ? "ymag" : "yfov"] = jsonFloat(c.orthographic ? c.ymag : c.yfov);
   }
   return cameras;
 }
@@ -38,15 +39,18 @@ Json lightsJson(const Scene& scene) {
     if (l.kind != LightKind::Directional)
       light["position"] = toJson(l.position), light["range"] = finiteOrNull(l.range);
     if (l.kind != LightKind::Point) light["direction"] = toJson(l.direction);
-    if (l.kind == LightKind::Spot)
-      light["innerConeAngle"] = l.innerConeAngle, light["outerConeAngle"] = l.outerConeAngle;
+    if (l.kind == LightKind::Spot) {
+      light["innerConeAngle"] = jsonFloat(l.innerConeAngle);
+      light["outerConeAngle"] = jsonFloat(l.outerConeAngle);
+    }
   }
   return lights;
 }
 
 Json featuresJson(const SceneFeatures& features, const Trimmed& trimmed) {
-  Json json{{"used", Json::array()}, {"leftOut", Json::array()}};
+  Json json{{"used", Json::array()}, {"kept", Json::array()}, {"leftOut", Json::array()}};
   for (const auto& line : features.lines()) {
+    if (line.kept) json["kept"].push_back(line.text);
     if (line.used)
       json["used"].push_back(line.text);
     else

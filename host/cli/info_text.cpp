@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cl/program.h"
+#include "cli/info_features.h"
 #include "cli/info_report.h"
 #include "cli/text.h"
 
@@ -62,17 +63,20 @@ std::string boundsText(const Scene& scene) {
     for (const std::uint32_t v : {t.v0, t.v1, t.v2})
       lo = glm::min(lo, scene.positions[v]), hi = glm::max(hi, scene.positions[v]);
   const glm::vec3 size = hi - lo;
-  return fmt::format("  {} × {} × {} m, from {} to {}\n", formatReal(static_cast<double>(size.x)),
-                     formatReal(static_cast<double>(size.y)), formatReal(static_cast<double>(size.z)),
-                     vectorText(lo), vectorText(hi));
+  const std::string text =
+      fmt::format("{} × {} × {} m, from {} to {}", formatReal(static_cast<double>(size.x)),
+                  formatReal(static_cast<double>(size.y)), formatReal(static_cast<double>(size.z)),
+                  vectorText(lo), vectorText(hi));
+  return "  " + wrapped(text, 78, 4) + "\n";
 }
 
 std::string contents(const Scene& s) {
-  std::string out = "What is in it\n  " + formatSome(s.triangles.size(), "triangle", "triangles");
-  if (s.droppedTriangles > 0) out += fmt::format(" ({} dropped)", formatInteger(s.droppedTriangles));
-  out += fmt::format(", {}, {}, {}\n", formatSome(s.positions.size(), "vertex", "vertices"),
-                     formatSome(s.materials.size(), "material", "materials"),
-                     formatSome(s.images.size(), "texture image", "texture images"));
+  std::string counts = formatSome(s.triangles.size(), "triangle", "triangles");
+  if (s.droppedTriangles > 0) counts += fmt::format(" ({} dropped)", formatInteger(s.droppedTriangles));
+  counts += fmt::format(", {}, {}, {}", formatSome(s.positions.size(), "vertex", "vertices"),
+                        formatSome(s.materials.size(), "material", "materials"),
+                        formatSome(s.images.size(), "texture image", "texture images"));
+  std::string out = "What is in it\n  " + wrapped(counts, 78, 2) + "\n";
   out += boundsText(s);
   out += fmt::format("  {}\n", formatSome(s.cameras.size(), "camera", "cameras"));
   for (std::size_t i = 0; i < s.cameras.size(); ++i)
@@ -85,21 +89,8 @@ std::string contents(const Scene& s) {
     out += fmt::format("    … and {} more (--json has them all)\n", formatInteger(s.lights.size() - kShown));
   const auto& b = s.background;
   const std::string map = b.map.empty() ? "" : fmt::format(" times a map of {}×{}", b.width, b.height);
-  return out + fmt::format("  background {} W/(m² sr){}\n", vectorText(b.radiance), map);
-}
-
-std::string needs(const SceneFeatures& features) {
-  std::vector<std::string> used;
-  std::string leftOut;
-  for (const auto& line : features.lines()) {
-    if (line.used)
-      used.push_back(line.text);
-    else
-      leftOut += "  " + padded(line.text, 36) + "  " + wrapped(line.reason, 40, 40) + "\n";
-  }
-  return "\nNeeded\n  " +
-         wrapped(used.empty() ? "nothing" : fmt::format("{}", fmt::join(used, ", ")), 78, 2) +
-         "\n\nLeft out\n" + (leftOut.empty() ? "  nothing\n" : leftOut);
+  return out + "  " + wrapped(fmt::format("background {} W/(m² sr){}", vectorText(b.radiance), map), 78, 4) +
+         "\n";
 }
 
 /// "3 of 12 materials: 5 that no triangle has, 4 alike"; nothing where all of them go to the device.
@@ -166,7 +157,8 @@ std::string buffersText(const RenderPlan& plan) {
 }  // namespace
 
 std::string infoText(const InfoReport& r) {
-  std::string out = r.scene.file + "\n\n" + contents(r.scene) + needs(r.features) + trimmedText(r.trimmed);
+  std::string out =
+      r.scene.file + "\n\n" + contents(r.scene) + featuresText(r.features) + trimmedText(r.trimmed);
   out += "\nStages that will run\n  " + wrapped(fmt::format("{}", fmt::join(r.stages, ", ")), 78, 2) + "\n\n";
   if (r.plan) return out + buffersText(*r.plan);
   return out + "Buffers\n  " + wrapped("unknown: " + r.planProblem, 78, 2) + "\n";

@@ -44,7 +44,11 @@ double parseReal(const std::string& option, const std::string& text, double low,
 
 CLI::Option* addFile(CLI::App& command, const std::string& name, std::filesystem::path& value,
                      const std::string& valueName, const std::string& text) {
-  return addText(command, name, [&value](const std::string& word) { value = word; }, {valueName, text, {}});
+  const auto set = [&value, name](const std::string& word) {
+    if (word.empty()) throw InputError(name + ": its value is empty; it names a file or folder");
+    value = word;
+  };
+  return addText(command, name, set, {valueName, text, {}});
 }
 
 }  // namespace whittle::cli

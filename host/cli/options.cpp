@@ -9,9 +9,9 @@
 #include <limits>
 #include <sstream>
 
+#include "cli/feature_names.h"
 #include "cli/option_kinds.h"
 #include "cli/text.h"
-#include "render/scene_features.h"
 #include "scene/gltf_loader.h"
 #include "scene/image_io.h"
 #include "scene/input_error.h"
@@ -67,32 +67,17 @@ void applyBackground(Scene& scene, const std::string& text) {
   scene.background.radiance = radiance;
 }
 
-/// Bits of "normal map, metal", as `whittle info` calls them; "" gives none.
-std::uint64_t parseFeatures(const std::string& text) {
-  std::uint64_t bits = 0;
-  std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ',');) {
-    word.erase(0, word.find_first_not_of(' '));
-    word.erase(word.find_last_not_of(' ') + 1);
-    std::vector<std::string> names;
-    for (const Feature f : allFeatures()) {
-      names.emplace_back(featureText(f));
-      if (word == names.back()) bits |= std::uint64_t{1} << static_cast<int>(f);
-    }
-    if (std::find(names.begin(), names.end(), word) != names.end()) continue;
-    const std::string near = closestWord(word, names);
-    throw InputError(
-        fmt::format("--keep-features: no feature is called '{}'; {}`whittle info SCENE` names them all", word,
-                    near.empty() ? "" : fmt::format("did you mean '{}'? ", near)));
-  }
-  return bits;
-}
-
 }  // namespace
 
 void addSceneOptions(CLI::App& c, SceneOptions& o) {
   c.option_defaults()->group("Scene");
-  c.add_option("SCENE", o.file, "glTF 2.0 file, .gltf or .glb")->required()->type_name("");
+  const auto setFile = [&o](const std::string& word) {
+    if (word.empty()) throw InputError("SCENE: the name is empty; it is a .gltf or .glb file");
+    o.file = word;
+  };
+  c.add_option_function<std::string>("SCENE", setFile, "glTF 2.0 file, .gltf or .glb")
+      ->required()
+      ->type_name("");
   addText(c, "--scene", [&o](const std::string& v) { o.scene = v; },
           {"NAME|INDEX", "which scene of the file", "the file's default"});
   addText(c, "--background", [&o](const std::string& v) { o.background = v; },
@@ -115,7 +100,7 @@ void addPictureOptions(CLI::App& c, Settings& s) {
   addWhole(c, "--bounces", s.bounces, 1, 4096, "N", "backward tracing steps; 1 = direct light only");
   addReal(c, "--cutoff", s.cutoff, 0, kLargestCutoff, "T",
           "trace no mirror or glass ray whose share of the picture (throughput) is at most this in every "
-          "colour; --stats says what that can cost (biasBound)",
+          "colour; --stats says what that can cost (biasBound beside meanRadiance)",
           "0: trace them all");
   addWhole(c, "--rays-per-pixel", s.raysPerPixel, 1, 1 << 24, "N",
            "primary rays; 1 = through the pixel's centre");
@@ -151,9 +136,13 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
                    "rays that one work item searches for");
   c.add_flag("--keep-all-features", s.keepAllFeatures,
              "compile and run everything that no other option decides, needed or not");
-  addText(
-      c, "--keep-features", [&s](const std::string& v) { s.keepFeatures = parseFeatures(v); },
-      {"LIST", "compile and run these, needed or not: names as `whittle info` has them, with commas", ""});
+  addText(c, "--keep-features",
+          [&s](const std::string& v) { s.keepFeatures = parseFeatureNames("--keep-features", v); },
+          {"LIST",
+           "compile and run these and what they need, whatever the scene needs: names as `whittle info` has "
+           "them, with "
+           "commas",
+           ""});
 }
 
 Scene loadScene(const SceneOptions& options, Notices& notices) {

@@ -80,6 +80,7 @@ void OutputCheck::claim(const std::string& option, const fs::path& file) {
 }
 
 void OutputCheck::picture(const std::string& option, const fs::path& file) {
+  if (file.empty()) throw InputError(fmt::format("{}: its value is empty; it names a file", option));
   try {
     checkWritable(file);
   } catch (const InputError& e) {

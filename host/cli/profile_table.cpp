@@ -149,7 +149,10 @@ std::string renderSummary(const Stats& s) {
   if (!s.error.empty() && s.error.back().raysPerPixel >= 2)
     out += fmt::format("estimated error {} W/(m² sr)\n", formatReal(s.error.back().estimate));
   if (s.cutOffThroughput > 0.0 && std::isfinite(s.biasBound))
-    out += fmt::format("the cut-off took at most {} W/(m² sr) off the mean\n", formatReal(s.biasBound));
+    out += fmt::format(
+        "the cut-off took at most {} W/(m² sr) off the mean, which is {}{}\n", formatReal(s.biasBound),
+        formatReal(s.meanRadiance),
+        s.meanRadiance > 0.0 ? fmt::format(": {} %", formatReal(100.0 * s.biasBound / s.meanRadiance)) : "");
   return out;
 }
 

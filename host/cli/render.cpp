@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cl/device.h"
+#include "cli/build_failure.h"
 #include "cli/commands.h"
 #include "cli/option_kinds.h"
 #include "cli/options.h"
@@ -16,6 +17,7 @@
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
 #include "cli/text.h"
+#include "render/feature_needs.h"
 #include "render/renderer.h"
 
 namespace whittle::cli {
@@ -108,6 +110,8 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
   };
   try {
     return render(scene, o.settings, hooks);
+  } catch (const BuildError& e) {
+    explainBuildFailure(e, o.kernelFolder);
   } catch (const std::invalid_argument& e) {
     // With nothing asked for, a machine without a device is no wrong usage.
     if (!o.settings.device.empty()) throw;
@@ -183,6 +187,7 @@ void runRender(RenderOptions& o) {
   limitCpuThreads(o.settings.threads);
 
   Notices notices;
+  notices.notes = uselessKeeps(o.settings);
   const Scene scene = loadScene(o.scene, notices);
   if (trace) trace->phase("load", start);
   const double load = since(start);

@@ -3,18 +3,22 @@
 // that a full disk is noticed whatever the format's writer does. sRGB decoding follows IEC 61966-2-1.
 #include "scene/image_codec.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 #include "scene/input_error.h"
 #include "scene/png_chunks.h"
@@ -123,8 +127,11 @@ const char* formatOf(std::span<const std::byte> bytes) {
 std::unique_ptr<OIIO::ImageInput> openFile(const fs::path& path) {
   const std::string name = path.string();
   std::error_code error;
-  if (!fs::exists(path, error)) throw InputError(fmt::format("{}: no such file", name));
   if (fs::is_directory(path, error)) throw InputError(fmt::format("{}: is a folder, not a picture", name));
+  const int file = ::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0)
+    throw InputError(fmt::format("{}: cannot be read: {}", name, std::generic_category().message(errno)));
+  ::close(file);
   const OIIO::ImageSpec hints = readHints();
   auto input = OIIO::ImageInput::open(name, &hints);
   if (!input) throw InputError(fmt::format("{}: cannot be opened: {}", name, oneLine(OIIO::geterror())));

@@ -2,6 +2,7 @@
 #include "render/kernel_programs.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -93,7 +94,8 @@ cl::Program compileProgram(Compute& compute, const KernelProgram& program, const
   const std::string options =
       fmt::format("-cl-std=CL1.2 -cl-kernel-arg-info -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}",
                   program.features, target.compactChunk);
-  cl::Program built = compute.build(program.source, options);
+  cl::Program built = compute.build(program.source, options,
+                                    fmt::format("{} ({})", program.name, fmt::join(program.kernels, ", ")));
   for (const auto& name : program.kernels)
     clTry("compiling kernel '" + name + "' for " + compute.device().name, [&] {
       cl::Kernel kernel(built, name.c_str());

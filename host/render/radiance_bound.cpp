@@ -166,6 +166,13 @@ std::vector<glm::dvec3> radianceBounds(const Scene& scene, const Settings& setti
   return bounds;
 }
 
+double meanRadiance(const FloatImage& radiance) {
+  glm::dvec3 sum(0);
+  for (std::size_t i = 0; i + 2 < radiance.pixels.size(); i += 3)
+    sum += glm::dvec3(radiance.pixels[i], radiance.pixels[i + 1], radiance.pixels[i + 2]);
+  return std::max(sum.x, std::max(sum.y, sum.z)) / static_cast<double>(radiance.pixels.size() / 3);
+}
+
 double cutOffThroughput(const Settings& settings, const std::vector<std::uint64_t>& cutOff) {
   double units = 0;
   for (const std::uint64_t u : cutOff) units += static_cast<double>(u);

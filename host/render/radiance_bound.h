@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/image_io.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
@@ -20,6 +21,9 @@ std::vector<glm::dvec3> radianceBounds(const Scene& scene, const Settings& setti
 /// left out. cutOffPerSample: RayTally::cutOff for each sample. 0 where nothing was cut off; infinite where
 /// radianceBounds is. With ImpulseMode::One it bounds the expected radiance, about which the choices scatter.
 double biasBound(const Scene& scene, const Settings& settings, const std::vector<double>& cutOffPerSample);
+
+/// The mean of a picture in its brightest channel, W/(m² sr): what biasBound bounds a change of.
+double meanRadiance(const FloatImage& radiance);
 
 /// RayTally::cutOff as throughput: the sum of the largest channels.
 double cutOffThroughput(const Settings& settings, const std::vector<std::uint64_t>& cutOff);

@@ -241,6 +241,7 @@ class Session {
   RenderResult finish() {
     RenderResult result;
     result.radiance = loop_->picture();
+    stats_.meanRadiance = meanRadiance(result.radiance);
     if (aovs_) {
       std::vector<float> planes(aovs_.bytes / sizeof(float));
       compute_->read(aovs_, 0, aovs_.bytes, planes.data());
@@ -274,6 +275,7 @@ class Session {
         stats_.featuresUsed.push_back(line.text);
       else
         stats_.featuresLeftOut.emplace_back(line.text, line.reason);
+      if (line.kept) stats_.featuresKept.push_back(line.text);
     }
     stats_.trimmed = use_.trimmed;
     const RayTally& t = wavefront_->tally();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "render/feature_needs.h"
 #include "render/material_use.h"
 
 namespace whittle {
@@ -225,12 +226,17 @@ SceneFeatures SceneFeatures::analyse(const Scene& scene, const SceneUse& use, co
        {geometryQuestions(needs), lightQuestions(needs), impulseQuestions(needs), cameraQuestions(needs)})
     questions.insert(questions.end(), part.begin(), part.end());
 
+  const auto bitOf = [](const Question& q) { return std::uint64_t{1} << static_cast<int>(q.feature); };
   SceneFeatures features;
+  for (const auto& q : questions)
+    if (q.used || (settings.keepAllFeatures && !q.settingDecides)) features.bits_ |= bitOf(q);
+  const KeptFeatures kept = keptFeatures(settings, features.bits_);
+  features.bits_ |= kept.bits;
   for (const auto& q : questions) {
-    const bool kept = (settings.keepFeatures >> static_cast<int>(q.feature)) & 1U;
-    const bool used = q.used || kept || (settings.keepAllFeatures && !q.settingDecides);
-    if (used) features.bits_ |= std::uint64_t{1} << static_cast<int>(q.feature);
-    features.lines_.push_back({q.feature, featureText(q.feature), used, used ? "" : q.reason});
+    const bool used = features.bits_ & bitOf(q);
+    const auto neededBy = kept.neededBy.find(q.feature);
+    features.lines_.push_back({q.feature, featureText(q.feature), used, used ? "" : q.reason, used && !q.used,
+                               neededBy == kept.neededBy.end() ? "" : featureText(neededBy->second)});
   }
   std::sort(features.lines_.begin(), features.lines_.end(), [](const FeatureLine& a, const FeatureLine& b) {
     return static_cast<int>(a.feature) < static_cast<int>(b.feature);

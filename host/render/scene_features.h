@@ -34,7 +34,9 @@ struct FeatureLine {
   Feature feature;
   std::string text;  ///< what a person calls it
   bool used = false;
-  std::string reason;  ///< why it is left out, or empty
+  std::string reason;    ///< why it is left out, or empty
+  bool kept = false;     ///< used only because it was asked for, or because one that was needs it
+  std::string neededBy;  ///< that one, or empty
 };
 
 class SceneFeatures {
@@ -52,7 +54,7 @@ class SceneFeatures {
     return features;
   }
   /// Derives the features of what goes to the device. settings.keepAllFeatures switches everything on that
-  /// does not contradict the settings.
+  /// does not contradict the settings, settings.keepFeatures these and what they need (feature_needs.h).
   static SceneFeatures analyse(const Scene& scene, const SceneUse& use, const Settings& settings,
                                const DeviceTraits& traits);
   /// The same where nothing else asks what goes to the device.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/json_float.h"
 #include "render/scene_features.h"
 
 namespace whittle {
@@ -35,9 +36,9 @@ nlohmann::ordered_json settingsToJson(const Settings& s) {
   return {{"width", s.width},
           {"height", s.height},
           {"camera", s.camera},
-          {"exposure", s.exposure},
+          {"exposure", jsonFloat(s.exposure)},
           {"bounces", s.bounces},
-          {"cutoff", s.cutoff},
+          {"cutoff", jsonFloat(s.cutoff)},
           {"raysPerPixel", s.raysPerPixel},
           {"shadows", s.shadows},
           {"search", toString(s.search)},
@@ -49,8 +50,8 @@ nlohmann::ordered_json settingsToJson(const Settings& s) {
           {"lanes", toString(s.lanes)},
           {"wavefront", s.wavefront},
           {"workGroup", s.workGroup},
-          {"bump", s.bump ? nlohmann::ordered_json(*s.bump) : nlohmann::ordered_json(nullptr)},
-          {"mirrorRoughness", s.mirrorRoughness},
+          {"bump", s.bump ? nlohmann::ordered_json(jsonFloat(*s.bump)) : nlohmann::ordered_json(nullptr)},
+          {"mirrorRoughness", jsonFloat(s.mirrorRoughness)},
           {"keepAllFeatures", s.keepAllFeatures},
           {"keepFeatures", keptFeatures(s)},
           {"adaptive", s.adaptive},
@@ -118,6 +119,7 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
                     {"version", s.device.version},           {"driver", s.device.driver},
                     {"computeUnits", s.device.computeUnits}, {"threads", s.device.threads}};
   json["features"]["used"] = s.featuresUsed;
+  json["features"]["kept"] = s.featuresKept;
   json["features"]["leftOut"] = nlohmann::ordered_json::array();
   for (const auto& [name, reason] : s.featuresLeftOut)
     json["features"]["leftOut"].push_back({{"name", name}, {"reason", reason}});
@@ -148,6 +150,7 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
   json["cutOffThroughput"] = s.cutOffThroughput;
   json["biasBound"] =
       std::isfinite(s.biasBound) ? nlohmann::ordered_json(s.biasBound) : nlohmann::ordered_json(nullptr);
+  json["meanRadiance"] = s.meanRadiance;
   json["nonFinite"] = s.nonFinite;
   json["dropped"] = s.dropped;
   return json;

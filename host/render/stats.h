@@ -59,6 +59,7 @@ struct Stats {
     int threads = 0;
   } device;
   std::vector<std::string> featuresUsed;
+  std::vector<std::string> featuresKept;  ///< those of them that the scene does not need
   std::vector<std::pair<std::string, std::string>> featuresLeftOut;  ///< name, reason
   Trimmed trimmed;                                                   ///< what of the scene stays on the host
   struct {
@@ -75,6 +76,7 @@ struct Stats {
   std::vector<ErrorPoint> error;
   double cutOffThroughput = 0.0;  ///< of the impulses that the cut-off left out: largest channels, summed
   double biasBound = 0.0;         ///< on what that took off the mean, W/(m² sr); may be infinite
+  double meanRadiance = 0.0;      ///< of the picture, in the brightest channel, W/(m² sr)
   struct {
     std::uint32_t least = 0, most = 0;
     double mean = 0.0;

@@ -35,6 +35,12 @@ std::string textOf(const Where& where) {
 constexpr double kLargestInteger = 9007199254740992.0;
 constexpr double kLargestIndex = 2147483647.0;
 
+/// "is 1 mesh", "are 2 meshes", "are no meshes".
+std::string someOf(std::size_t count, std::string_view plural) {
+  if (count != 1) return fmt::format("are {} {}", count == 0 ? "no" : std::to_string(count), plural);
+  return fmt::format("is 1 {}", plural.substr(0, plural.size() - (plural == "meshes" ? 2 : 1)));
+}
+
 class Checker {
  public:
   Checker(const Document& document, const Json& root) : document_(document) {
@@ -151,7 +157,7 @@ class Checker {
       const auto count = counts_.find(field.target);
       const std::size_t size = count == counts_.end() ? 0 : count->second;
       if (number >= size) {
-        wrong(where, fmt::format("is {}, but there are {} {}", number, size, field.target));
+        wrong(where, fmt::format("is {}, but there {}", number, someOf(size, field.target)));
       }
     }
     bool legal = field.oneOf.empty();

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
+#include <system_error>
 
 #include "scene/gltf_check.h"
 #include "scene/gltf_uri.h"
@@ -80,12 +82,15 @@ std::string_view asText(std::span<const std::byte> bytes) {
 std::optional<std::string> readStart(const std::filesystem::path& path, std::uint64_t most, Bytes& bytes) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return "does not exist";
+  if (status.type() == std::filesystem::file_type::not_found) return "does not exist";
+  if (!std::filesystem::status_known(status)) return "cannot be read: " + error.message();
   if (std::filesystem::is_directory(status)) return "is a folder, not a file";
   if (!std::filesystem::is_regular_file(status)) return "is not a regular file";
   const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) return "cannot be read: " + error.message();
+  errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (error || !stream) return "cannot be read";
+  if (!stream) return "cannot be read: " + std::generic_category().message(errno);
   bytes.resize(std::min<std::uintmax_t>(size, most));
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (stream.gcount() != static_cast<std::streamsize>(bytes.size())) return "cannot be read to its end";

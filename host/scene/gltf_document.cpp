@@ -101,6 +101,13 @@ void removeStandInView(tinygltf::Model& model) {
   }
 }
 
+/// tinygltf adds a line for each level that fails, the innermost first.
+std::string firstSentence(const std::string& error) {
+  std::string line = oneLine(error.substr(0, error.find('\n')));
+  while (!line.empty() && (line.back() == '.' || line.back() == ' ')) line.pop_back();
+  return line;
+}
+
 void readDescription(Document& document) {
   const std::string text = withStandInView(descriptionOnly(document.json));
   if (text.size() > std::numeric_limits<unsigned int>::max()) document.fail("its JSON is larger than 4 GB");
@@ -109,7 +116,8 @@ void readDescription(Document& document) {
   std::string warning;
   if (!reader.LoadASCIIFromString(&document.model, &error, &warning, text.c_str(),
                                   static_cast<unsigned int>(text.size()), "", tinygltf::NO_REQUIRE)) {
-    document.fail(error.empty() ? "cannot be read" : error);
+    document.fail("its description is not valid glTF 2.0" +
+                  (error.empty() ? "" : ": " + firstSentence(error)));
   }
   removeStandInView(document.model);
 }

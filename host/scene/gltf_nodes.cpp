@@ -57,6 +57,20 @@ void walk(const std::vector<tinygltf::Node>& nodes, const std::vector<int>& root
   }
 }
 
+/// A node on a cycle, there being one: going up from each node, until a root or where one has been before.
+int nodeOfCycle(const Parents& parents) {
+  std::vector<std::size_t> seenFrom(parents.size(), parents.size());
+  for (std::size_t start = 0; start < parents.size(); ++start) {
+    int node = static_cast<int>(start);
+    while (node >= 0 && seenFrom[static_cast<std::size_t>(node)] == parents.size()) {
+      seenFrom[static_cast<std::size_t>(node)] = start;
+      node = parents[static_cast<std::size_t>(node)];
+    }
+    if (node >= 0 && seenFrom[static_cast<std::size_t>(node)] == start) return node;
+  }
+  return 0;
+}
+
 std::vector<glm::dmat4> globalTransforms(const Document& document, const Parents& parents,
                                          const std::vector<int>& roots) {
   const auto& nodes = document.model.nodes;
@@ -69,7 +83,10 @@ std::vector<glm::dmat4> globalTransforms(const Document& document, const Parents
     ++reached;
   });
   // With single parents, what no root reaches hangs on a cycle.
-  if (reached != nodes.size()) document.fail("the nodes form a cycle");
+  if (reached != nodes.size()) {
+    document.fail(fmt::format("{} is its own ancestor: nodes must form trees",
+                              nodeLabel(document, nodeOfCycle(parents))));
+  }
   return toWorld;
 }
 

@@ -94,8 +94,13 @@ void checkFolderWritable(const fs::path& path) {
   const fs::path folder = folderOf(target);
   if (fs::is_directory(target, error))
     throw InputError(fmt::format("{}: is a folder, not a file", path.string()));
-  if (!fs::is_directory(folder, error)) {
-    throw InputError(fmt::format("{}: the folder {} does not exist", path.string(), folder.string()));
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::is_directory(status)) {
+    const bool isAbsent = status.type() == fs::file_type::not_found;
+    throw InputError(
+        fmt::format("{}: the folder {} {}", path.string(), folder.string(),
+                    isAbsent ? "does not exist"
+                             : (fs::exists(status) ? "is a file" : "cannot be used: " + error.message())));
   }
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
     throw InputError(fmt::format("{}: the folder {} is not writable: {}", path.string(), folder.string(),

@@ -63,6 +63,23 @@ TEST(Compute, BuffersKeepTheirContents) {
   EXPECT_TRUE(contains(message, "'numbers'")) << message;
 }
 
+/// The message in the first, the log in the second.
+std::pair<std::string, std::string> buildErrorOf(Compute& compute, const std::string& source,
+                                                 const std::string& options) {
+  try {
+    compute.build(source, options, "stage");
+  } catch (const BuildError& e) {
+    return {e.what(), e.log()};
+  }
+  return {"no BuildError", ""};
+}
+
+TEST(Compute, TheFirstErrorOfALog) {
+  EXPECT_EQ(firstError("a.cl:1: warning: w\n  a.cl:2: error: e \na.cl:3: error: f\n"), "a.cl:2: error: e");
+  EXPECT_EQ(firstError("\n\nsomething\nelse\n"), "something");
+  EXPECT_EQ(firstError("\n"), "the compiler does not say why");
+}
+
 TEST(Compute, BuildFailureCarriesTheLogWithTheFilesOwnLines) {
   Compute compute = test::openTestDevice();
   const test::TemporarySources sources;
@@ -71,18 +88,20 @@ TEST(Compute, BuildFailureCarriesTheLogWithTheFilesOwnLines) {
   sources.write("lib/first.cl", "#include \"lib/second.cl\"\nint one(void) { return two(); }\n");
   sources.write("lib/second.cl", "// a comment\n\nint two(void) { return thisIsNotDeclared; }\n");
   const std::string source = assembleKernelSource({"stage.cl"}, sources.folder());
-  const std::string message = clErrorOf([&] { compute.build(source, "-D SOME_OPTION=1"); });
+  const auto [message, log] = buildErrorOf(compute, source, "-D SOME_OPTION=1");
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  EXPECT_TRUE(contains(message, "compiling stage on " + compute.device().name)) << message;
   EXPECT_TRUE(contains(message, "thisIsNotDeclared")) << message;
   EXPECT_TRUE(contains(message, "lib/second.cl:3")) << message;
   EXPECT_TRUE(contains(message, "CL_BUILD_PROGRAM_FAILURE")) << message;
-  EXPECT_TRUE(contains(message, "SOME_OPTION")) << message;
+  EXPECT_TRUE(contains(log, "SOME_OPTION") && contains(log, "lib/second.cl:3")) << log;
 
   sources.write("lib/second.cl", "int two(void) { return 2; }\n");
   sources.write("stage.cl",
                 "#include \"lib/first.cl\"\n\n__kernel void stage(__global int* out) { out[0] = three(); }\n"
                 "#include \"lib/second.cl\"\nint broken(void) { return alsoNotDeclared; }\n");
   const std::string second =
-      clErrorOf([&] { compute.build(assembleKernelSource({"stage.cl"}, sources.folder()), ""); });
+      buildErrorOf(compute, assembleKernelSource({"stage.cl"}, sources.folder()), "").second;
   EXPECT_TRUE(contains(second, "stage.cl:5")) << "after two includes\n" << second;
 }
 

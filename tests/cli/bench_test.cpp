@@ -71,6 +71,24 @@ TEST(Bench, EveryKernelAgreesWithEmbree) {
   EXPECT_EQ(kernels, (std::set<std::string>{"packet16", "single2"}));
 }
 
+/// Everything lies in one plane: no ray may start in it. And it is one triangle.
+TEST(Bench, ATriangleAloneIsNoPuzzle) {
+  const Folder folder;
+  std::ofstream(folder / "one.gltf")
+      << R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+  const Outcome run = runWhittle(
+      {"bench", "one.gltf", "--rays", "2000", "--runs", "1", "--all-kernels", "--json"}, {folder.path(), {}});
+  ASSERT_EQ(run.status, 0) << run.err;
+  for (const auto& row : Json::parse(run.out)["rows"]) EXPECT_LE(row.value("disagree", 0), 1) << row;
+  const Outcome few = runWhittle({"bench", "one.gltf", "--rays", "1", "--runs", "1"}, {folder.path(), {}});
+  EXPECT_EQ(few.out.rfind("1 triangle, ", 0), 0U) << few.out;
+  EXPECT_NE(few.err.find("so few rays that launching a kernel"), std::string::npos) << few.err;
+}
+
 TEST(Bench, TextSaysTheSame) {
   const Outcome run = runWhittle(
       {"bench", std::string(WHITTLE_SCENES) + "/shadow.glb", "--rays", "500", "--runs", "1", "--quiet"});

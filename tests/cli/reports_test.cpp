@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "cli/text.h"
 #include "run_whittle.h"
 #include "scene/image_io.h"
 
@@ -30,6 +31,16 @@ TEST(Info, TextHasItsSections) {
     EXPECT_NE(run.out.find(part), std::string::npos) << part << " in:\n" << run.out;
 }
 
+TEST(Info, TextFitsATerminal) {
+  for (const char* name : {"cornell_box.glb", "textured.glb", "height_field.glb"})
+    for (const char* keep :
+         {"", "normal map,absorption,sobol sampler,shadows through transparent surfaces"}) {
+      std::istringstream text(
+          runWhittle({"info", scene(name), "--bounces", "1", "--keep-features", keep}).out);
+      for (std::string line; std::getline(text, line);) EXPECT_LE(cli::columnsOf(line), 80U) << line;
+    }
+}
+
 TEST(Info, EveryFeatureIsUsedOrLeftOutForAReason) {
   const Json info = infoOf({scene()});
   for (const char* key : {"file", "triangles", "vertices", "materials", "textures", "lights", "cameras",
@@ -40,6 +51,30 @@ TEST(Info, EveryFeatureIsUsedOrLeftOutForAReason) {
   for (const auto& line : info["features"]["leftOut"])
     EXPECT_FALSE(line["reason"].get<std::string>().empty()) << line;
   EXPECT_EQ(infoOf({scene(), "--keep-all-features", "--bounces", "1"})["file"], scene());
+}
+
+TEST(Info, KeptFeaturesHaveASectionOfTheirOwn) {
+  const std::vector<std::string> keep{"--keep-features", "Normal Map"};
+  const Json features = infoOf({scene(), keep[0], keep[1]})["features"];
+  EXPECT_EQ(features["kept"], Json({"textures", "first UV set", "normal map"}));
+  EXPECT_EQ(infoOf({scene()})["features"]["kept"], Json::array());
+  std::set<std::string> used;
+  for (const auto& name : features["used"]) used.insert(name);
+  for (const auto& name : features["kept"]) EXPECT_TRUE(used.contains(name)) << name;
+  const std::string text = runWhittle({"info", scene(), keep[0], keep[1]}).out;
+  const auto needed = text.find("\nNeeded\n"), kept = text.find("\nKept because asked for\n"),
+             leftOut = text.find("\nLeft out\n"), named = text.find("normal map");
+  ASSERT_TRUE(needed < kept && kept < leftOut && leftOut != std::string::npos) << text;
+  EXPECT_TRUE(kept < named && named < leftOut) << text;
+  EXPECT_NE(text.find("textures (needed by normal map)"), std::string::npos) << text;
+}
+
+TEST(Info, SaysWhichKeptFeaturesASettingRulesOut) {
+  const Outcome run = runWhittle({"info", scene(), "--no-shadows", "--keep-features", "shadow rays"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.err.find("note: --keep-features: 'shadow rays' stays out: shadows are switched off\n"),
+            std::string::npos)
+      << run.err;
 }
 
 /// The plan is a promise: stages and buffers of a real render are those that info names.
@@ -76,12 +111,14 @@ TEST_P(Plan, IsWhatARenderDoes) {
     EXPECT_EQ(bytes[b["name"]], b["bytes"]) << b["name"];
   }
   EXPECT_EQ(info["features"]["used"], stats["features"]["used"]);
+  EXPECT_EQ(info["features"]["kept"], stats["features"]["kept"]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cli, Plan,
                          testing::Values(std::vector<std::string>{scene()},
                                          std::vector<std::string>{scene(), "--no-shadows"},
                                          std::vector<std::string>{scene(), "--bounces", "1"},
+                                         std::vector<std::string>{scene(), "--keep-features", "alpha mask"},
                                          std::vector<std::string>{scene("emission.glb")},
                                          std::vector<std::string>{scene("textured.glb")},
                                          std::vector<std::string>{scene("spot_cone.glb")}));

@@ -1,10 +1,17 @@
 // --stats, --trace, --reference, --time-limit, --target-error: the names are a contract with scripts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <set>
 
+#include "cli/text.h"
+#include "render/json_float.h"
 #include "run_whittle.h"
+#include "scene/image_io.h"
 
 namespace whittle::test {
 namespace {
@@ -28,7 +35,7 @@ TEST(Stats, HoldsEveryKeyOfTheContract) {
   const Json s = statsOf({"--rays-per-pixel", "4"});
   expectKeys(s,
              {"scene", "settings", "device", "features", "rays", "time", "phases", "stages", "bounces",
-              "memory", "error", "biasBound", "nonFinite", "dropped"},
+              "memory", "error", "biasBound", "meanRadiance", "nonFinite", "dropped"},
              "top");
   expectKeys(s["scene"], {"file", "triangles", "materials", "lights", "textures"}, "scene");
   expectKeys(s["settings"],
@@ -39,7 +46,7 @@ TEST(Stats, HoldsEveryKeyOfTheContract) {
               "aov",          "quiet"},
              "settings");
   expectKeys(s["device"], {"platform", "name", "version", "driver", "computeUnits", "threads"}, "device");
-  expectKeys(s["features"], {"used", "leftOut"}, "features");
+  expectKeys(s["features"], {"used", "kept", "leftOut"}, "features");
   expectKeys(s["rays"], {"primary", "impulse", "shadow", "total"}, "rays");
   expectKeys(s["time"], {"load", "build", "compile", "upload", "render", "write", "total"}, "time");
   expectKeys(s["memory"], {"tree", "triangles", "queues", "textures", "film", "total"}, "memory");
@@ -131,6 +138,49 @@ TEST(Stats, ACutoffTracesLessAndSaysWhatItCanCost) {
   EXPECT_GT(cut["biasBound"].get<double>(), 0);
   EXPECT_GT(cut["cutOffThroughput"].get<double>(), 0);
   EXPECT_LT(cut["rays"]["impulse"].get<int>(), whole["rays"]["impulse"].get<int>());
+}
+
+/// The bound stands beside what it bounds: the mean of the brightest channel of the picture that was written.
+TEST(Stats, TheMeanIsThatOfThePicture) {
+  const Folder folder;
+  const Outcome run =
+      runWhittle(smallRender({"--cutoff", "0.25", "--stats", "s.json", "-o", "a.exr"}), {folder.path(), {}});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const FloatImage image = readFloatImage(folder / "a.exr");
+  double sums[3] = {};
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) sums[i % 3] += static_cast<double>(image.pixels[i]);
+  const double mean = *std::max_element(sums, sums + 3) / (32 * 24);
+  const Json s = readJson(folder / "s.json");
+  // Sums of 768 numbers, in the same order or another: far fewer than 1e4 roundings of 1e-16 each.
+  EXPECT_NEAR(s["meanRadiance"].get<double>(), mean, 1e-12 * mean);
+  const std::string line = "W/(m² sr) off the mean, which is " + cli::formatReal(mean) + ": " +
+                           cli::formatReal(100 * s["biasBound"].get<double>() / mean) + " %\n";
+  EXPECT_NE(run.out.find(line), std::string::npos) << line << " in:\n" << run.out;
+}
+
+TEST(Stats, FloatsAreTheDecimalsThatWereTyped) {
+  const Folder folder;
+  ASSERT_EQ(runWhittle(smallRender({"--cutoff", "0.001", "--bump", "0.1", "--mirror-roughness", "0.15",
+                                    "--exposure", "-0.7", "--stats", "s.json", "--quiet"}),
+                       {folder.path(), {}})
+                .status,
+            0);
+  const std::string text = readText(folder / "s.json");
+  for (const char* part :
+       {"\"cutoff\": 0.001,", "\"bump\": 0.1,", "\"mirrorRoughness\": 0.15,", "\"exposure\": -0.7,"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+/// Bits of floats of every size come back from what a JSON writer prints.
+TEST(Stats, FloatsReadBackAsTheSameFloats) {
+  std::uint32_t bits = 1;
+  for (int i = 0; i < 20000; ++i) {
+    bits = bits * 1664525U + 1013904223U;
+    const auto value = std::bit_cast<float>(bits);
+    if (!std::isfinite(value)) continue;
+    const std::string text = Json(jsonFloat(value)).dump();
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(std::strtof(text.c_str(), nullptr)), bits) << text;
+  }
 }
 
 TEST(Stats, TimeLimitStopsEarlyAndSaysHowFarItCame) {

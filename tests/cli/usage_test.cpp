@@ -1,10 +1,12 @@
 // Wrong usage and unusable input: status 2, nothing on standard output, one line that names the culprit.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 #include <ostream>
 
+#include "cli/build_failure.h"
 #include "run_whittle.h"
 
 namespace whittle::test {
@@ -90,6 +92,26 @@ std::vector<Mistake> mistakes() {
       {"KernelsMissing", {"render", s, "--kernels", "nope", "-o", "a.png"}, {"--kernels", "nope"}},
       {"BackgroundUnreadable", {"render", s, "--background", "1,2", "-o", "a.png"}, {"--background", "1,2"}},
       {"BackgroundNegative", {"info", s, "--background=-1,0,0"}, {"--background", "-1,0,0"}},
+      {"FeatureMistyped",
+       {"info", s, "--keep-features", "Normal mpa"},
+       {"--keep-features", "'Normal mpa'", "'normal map'?"}},
+      {"FeatureInPart",
+       {"info", s, "--keep-features", "metal,NORMAL"},
+       {"'NORMAL'", "'vertex normals' or 'normal map'?"}},
+      {"FeatureUnknown",
+       {"info", s, "--keep-features", "frobnication"},
+       {"'frobnication'; `whittle info SCENE`"}},
+      {"FeatureEmpty", {"info", s, "--keep-features", ","}, {"--keep-features", "','", "empty entry"}},
+      {"FeatureEmptyBetween", {"info", s, "--keep-features", "metal, ,unlit materials"}, {"empty entry"}},
+      {"FeatureEmptyAtTheEnd", {"info", s, "--keep-features", "metal,"}, {"'metal,'", "empty entry"}},
+      {"OutputEmpty", {"render", s, "-o", ""}, {"--output", "empty"}},
+      {"StatsEmpty", {"render", s, "--stats", ""}, {"--stats", "empty"}},
+      {"SceneEmpty", {"render", ""}, {"SCENE", "empty"}},
+      {"OutputInAFile", {"render", s, "-o", s + "/a.png"}, {"--output", s + " is a file"}},
+      {"SceneInAFile", {"info", s + "/a.glb"}, {s + "/a.glb"}},
+      {"ReferenceInAFile", {"render", s, "--reference", s + "/a.exr"}, {"--reference", "Not a directory"}},
+      {"CommandAfterDashes", {"--", "rendr", s}, {"rendr", "'render'"}},
+      {"OptionNameAfterDashes", {"info", "--", "--json"}, {"--json: does not exist"}},
       {"SceneOfFileUnknown", {"info", s, "--scene", "nope"}, {"nope"}},
       {"CompareMissing", {"compare", "a.exr", "b.exr"}, {"a.exr"}},
       {"CompareOne", {"compare", "a.exr"}, {"B"}},
@@ -125,6 +147,86 @@ TEST(UsageOfFiles, GarbageIsNoScene) {
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.err.find("scene.glb"), std::string::npos) << run.err;
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+/// Whoever runs the tests as root can read everything: then as somebody else, where setpriv is there to ask
+/// for that.
+TEST(UsageOfFiles, WhatMayNotBeReadSaysSo) {
+  const Folder folder;
+  std::filesystem::copy_file(scene("shadow.glb"), folder / "a.glb");
+  std::filesystem::permissions(folder / "a.glb", std::filesystem::perms::none);
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+  const bool isRoot = ::geteuid() == 0;
+  const std::string as = isRoot ? "setpriv --reuid 65534 --clear-groups " : "";
+  if (isRoot && runShell(as + "\"$WHITTLE\" --version").status != 0)
+    GTEST_SKIP() << "no other user to run as";
+  for (const char* args : {"info a.glb", "compare a.glb a.glb", "info \"$SCENE\" --background a.glb",
+                           "render \"$SCENE\" --reference a.glb --stats -"}) {
+    const Outcome run = runShell(as + "\"$WHITTLE\" " + args, {folder.path(), {{"SCENE", scene()}}});
+    EXPECT_EQ(run.status, 2) << args;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_NE(run.err.find("a.glb: cannot be read: Permission denied"), std::string::npos) << run.err;
+  }
+}
+
+TEST(UsageOfFiles, ALinkToItselfIsReadNowhere) {
+  const Folder folder;
+  std::filesystem::create_symlink("loop", folder / "loop");
+  for (const std::vector<std::string>& args : {std::vector<std::string>{"info", "loop"},
+                                               {"compare", "loop", "loop"},
+                                               {"info", scene(), "--background", "loop"},
+                                               {"render", scene(), "--reference", "loop", "-o", "a.png"}}) {
+    const Outcome run = runWhittle(args, {folder.path(), {}});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.err.find("loop: cannot be read: Too many levels of symbolic links\n"), std::string::npos)
+        << run.err;
+  }
+}
+
+/// A folder of kernels in which a file is missing, or no file, or does not compile.
+TEST(UsageOfFiles, KernelsOfAFolderSayWhatIsWrong) {
+  const Folder folder;
+  const auto kernels = folder / "k", broken = kernels / "lib" / "bsdf.cl";
+  std::filesystem::copy(std::string(WHITTLE_SCENES) + "/../kernels", kernels,
+                        std::filesystem::copy_options::recursive);
+  const auto render = [&] {
+    return runWhittle(smallRender({"-o", "a.png", "--kernels", "k"}), {folder.path(), {}});
+  };
+  std::ofstream(broken, std::ios::app) << "int broken(void) { return thisIsNotDeclared; }\n";
+  const std::string said = render().err;
+  const auto line = said.find("whittle: compiling shading (shade"), log = said.find("\n    ", line);
+  ASSERT_TRUE(line != std::string::npos && log != std::string::npos) << said;
+  EXPECT_NE(said.substr(line, log - line).find("thisIsNotDeclared"), std::string::npos) << said;
+  EXPECT_NE(said.find("thisIsNotDeclared", log), std::string::npos) << said;
+  std::filesystem::remove(broken);
+  EXPECT_NE(render().err.find("lib/bsdf.cl cannot be read: No such file"), std::string::npos);
+  std::filesystem::create_directory(broken);
+  EXPECT_NE(render().err.find("lib/bsdf.cl cannot be read: Is a directory"), std::string::npos);
+}
+
+TEST(UsageOfFiles, TheLogOfKernelsThatAreBuiltInGoesToAFile) {
+  const std::string log = "a.cl:1: warning: w\na.cl:2: error: wrong\n";
+  try {
+    cli::explainBuildFailure(BuildError("compiling shading failed", log), {});
+  } catch (const std::runtime_error& e) {
+    const std::string text = e.what(),
+                      start = "compiling shading failed: a.cl:2: error: wrong; the whole log is in ";
+    ASSERT_EQ(text.rfind(start, 0), 0U) << text;
+    EXPECT_EQ(readText(text.substr(start.size())), log);
+    std::filesystem::remove(text.substr(start.size()));
+  }
+}
+
+TEST(UsageOfOptions, WhatFollowsTwoDashesIsAName) {
+  const Folder folder;
+  std::filesystem::copy_file(scene("shadow.glb"), folder / "-odd.glb");
+  for (const std::vector<std::string>& args : {std::vector<std::string>{"info", "--", "-odd.glb"},
+                                               {"info", "--json", "--", "-odd.glb"},
+                                               {"--", "info", "./-odd.glb"}}) {
+    const Outcome run = runWhittle(args, {folder.path(), {}});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_NE(run.out.find("-odd.glb"), std::string::npos) << run.out;
+  }
 }
 
 TEST(UsageOfOptions, TheLastValueCounts) {

@@ -7,6 +7,7 @@
 
 #include "cl/kernel_source.h"
 #include "pictures.h"
+#include "render/feature_needs.h"
 #include "render/kernel_programs.h"
 #include "render/plan.h"
 #include "render/scene_features.h"
@@ -74,6 +75,81 @@ Scene plainScene() {
   return scene;
 }
 
+std::uint64_t bitOf(Feature f) { return std::uint64_t{1} << static_cast<int>(f); }
+
+/// Features that the programs of these settings are told of: their text comes to where it asks for them.
+std::uint64_t compiledIn(const SceneFeatures& features) {
+  std::uint64_t bits = 0;
+  for (const KernelProgram& p : kernelPrograms(features, plannedStages(features, 1, 8))) bits |= p.features;
+  return bits;
+}
+
+TEST(Features, EachOneThatIsKeptIsCompiledInWithWhatItNeeds) {
+  const Scene scene = plainScene();
+  // Without a light nothing of light is there yet.
+  Scene dark = scene;
+  dark.lights.clear();
+  for (const Scene* s : {&scene, static_cast<const Scene*>(&dark)})
+    for (const Feature f : allFeatures()) {
+      Settings settings;
+      if (f == Feature::ONE_IMPULSE) settings.impulses = ImpulseMode::One;
+      const std::uint64_t without = SceneFeatures::analyse(*s, settings, {true}).bits();
+      settings.keepFeatures = bitOf(f);
+      const SceneFeatures features = SceneFeatures::analyse(*s, settings, {true});
+      EXPECT_TRUE(features.has(f)) << featureText(f);
+      // No text asks for random places: they are what is left of the samplers.
+      const std::uint64_t kept = features.bits() & ~without & ~bitOf(Feature::SAMPLER_RANDOM);
+      EXPECT_EQ(kept & ~compiledIn(features), 0U) << featureText(f);
+      for (const auto& line : features.lines()) {
+        EXPECT_EQ(line.kept, line.used && !(without & bitOf(line.feature))) << line.text;
+        EXPECT_EQ(!line.neededBy.empty(), line.kept && line.feature != f) << line.text;
+      }
+    }
+}
+
+TEST(Features, ANormalMapBringsTexturesAndAWayToReadThem) {
+  Settings settings;
+  const Scene scene = plainScene();
+  const std::uint64_t without = SceneFeatures::analyse(scene, settings, {true}).bits();
+  settings.keepFeatures = bitOf(Feature::NORMAL_TEXTURE);
+  EXPECT_EQ(SceneFeatures::analyse(scene, settings, {true}).bits() & ~without,
+            bitOf(Feature::NORMAL_TEXTURE) | bitOf(Feature::TEXTURES) | bitOf(Feature::UV0));
+  settings.keepFeatures = bitOf(Feature::ABSORPTION);
+  EXPECT_EQ(SceneFeatures::analyse(scene, settings, {true}).bits() & ~without,
+            bitOf(Feature::ABSORPTION) | bitOf(Feature::TRANSMISSION) | bitOf(Feature::IMPULSES));
+}
+
+/// What scenes need holds together by itself: the table asks for nothing that the analysis would leave out.
+TEST(Features, OwnScenesNeedNothingMore) {
+  for (const auto& name : ownScenes()) {
+    const SceneFeatures features = SceneFeatures::analyse(ownScene(name), smallSettings(), {true});
+    for (const FeatureNeed& need : featureNeeds())
+      if (features.has(need.feature)) {
+        EXPECT_TRUE(
+            std::any_of(need.oneOf.begin(), need.oneOf.end(), [&](Feature f) { return features.has(f); }))
+            << name << ": " << featureText(need.feature);
+      }
+  }
+}
+
+/// Keeping never goes against a setting; a line says so.
+TEST(Features, WhatASettingRulesOutIsNotKept) {
+  Scene scene = plainScene();
+  scene.lights[0].castsShadows = true;
+  Settings settings;
+  settings.width = settings.height = 8;
+  settings.shadows = false;
+  const RenderResult plain = renderOnDevice(scene, settings);
+  settings.keepFeatures = bitOf(Feature::SHADOWS) | bitOf(Feature::FILTERED_SHADOWS) |
+                          bitOf(Feature::ONE_IMPULSE) | bitOf(Feature::METAL);
+  EXPECT_EQ(uselessKeeps(settings).size(), 3U);
+  const RenderResult kept = renderOnDevice(scene, settings);
+  EXPECT_EQ(kept.stats.rays.shadow, 0U);
+  EXPECT_EQ(differingPixels(plain.radiance, kept.radiance), 0U);
+  EXPECT_EQ(statsToJson(kept.stats)["features"]["kept"],
+            nlohmann::json({featureText(Feature::MICROFACET), featureText(Feature::METAL)}));
+}
+
 TEST(Features, EachOneThatASceneDoesNotNeedChangesNothing) {
   const Scene scene = plainScene();
   Settings settings;
@@ -85,10 +161,13 @@ TEST(Features, EachOneThatASceneDoesNotNeedChangesNothing) {
   for (const auto& line : features.lines()) {
     if (line.used) continue;
     Settings forced = settings;
-    forced.keepFeatures = std::uint64_t{1} << static_cast<int>(line.feature);
+    if (line.feature == Feature::ONE_IMPULSE) forced.impulses = ImpulseMode::One;
+    forced.keepFeatures = bitOf(line.feature);
     const RenderResult more = renderOnDevice(scene, forced);
     EXPECT_EQ(differingPixels(plain.radiance, more.radiance), 0U) << line.text;
-    EXPECT_EQ(more.stats.featuresUsed.size(), plain.stats.featuresUsed.size() + 1) << line.text;
+    const auto& kept = more.stats.featuresKept;
+    EXPECT_NE(std::find(kept.begin(), kept.end(), line.text), kept.end()) << line.text;
+    EXPECT_EQ(more.stats.featuresUsed.size(), plain.stats.featuresUsed.size() + kept.size()) << line.text;
     ++tried;
   }
   EXPECT_GT(tried, 30U);

@@ -63,7 +63,7 @@ TEST(RenderStats, JsonHasEveryKey) {
               "keepAllFeatures", "targetError", "timeLimit"},
              "settings");
   expectKeys(json["device"], {"platform", "name", "version", "driver", "computeUnits", "threads"}, "device");
-  expectKeys(json["features"], {"used", "leftOut"}, "features");
+  expectKeys(json["features"], {"used", "kept", "leftOut"}, "features");
   expectKeys(json["rays"], {"primary", "impulse", "shadow", "total"}, "rays");
   expectKeys(json["time"], {"load", "build", "compile", "upload", "render", "write", "total"}, "time");
   expectKeys(json["memory"], {"tree", "triangles", "queues", "textures", "film", "total"}, "memory");

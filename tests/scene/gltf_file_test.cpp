@@ -31,6 +31,23 @@ std::string triangleBytes() {
   return b.binary;
 }
 
+void expectLine(const std::string& text, const fs::path& path, const std::string& part);
+
+TEST(GltfFile, WhatTheReaderRefusesIsOneLineInOurWords) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const char* key, const Json& value, const std::string& part) {
+    Json json = Json::parse(triangleGltf({{"byteLength", 36}, {"uri", "data:;base64,AAAA"}}));
+    json[key] = Json::array({value});
+    const auto path = folder.write("a.gltf", json.dump());
+    const std::string text = test::errorOf(path);
+    expectLine(text, path, "its description is not valid glTF 2.0: " + part);
+    EXPECT_EQ(text.find("\\n"), std::string::npos) << text;
+    EXPECT_NE(text.back(), '.') << text;
+  };
+  refused("cameras", {{"type", "fish"}}, "Invalid camera type");
+  refused("cameras", {{"type", "perspective"}}, "Perspective camera");
+}
+
 void expectLine(const std::string& text, const fs::path& path, const std::string& part) {
   EXPECT_TRUE(text.starts_with(path.string() + ": ")) << text;
   EXPECT_NE(text.find(part), std::string::npos) << text;

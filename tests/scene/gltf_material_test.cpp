@@ -204,11 +204,11 @@ TEST(GltfMaterial, ReferencesAreChecked) {
   };
   EXPECT_NE(errorWith([](Json& j) {
               j["materials"][0]["normalTexture"]["index"] = 1;
-            }).find("materials[0].normalTexture.index is 1, but there are 1 textures"),
+            }).find("materials[0].normalTexture.index is 1, but there is 1 texture"),
             std::string::npos);
-  EXPECT_NE(errorWith([](Json& j) { j["textures"][0]["source"] = 1; }).find("but there are 1 images"),
+  EXPECT_NE(errorWith([](Json& j) { j["textures"][0]["source"] = 1; }).find("but there is 1 image"),
             std::string::npos);
-  EXPECT_NE(errorWith([](Json& j) { j["textures"][0]["sampler"] = 0; }).find("but there are 0 samplers"),
+  EXPECT_NE(errorWith([](Json& j) { j["textures"][0]["sampler"] = 0; }).find("but there are no samplers"),
             std::string::npos);
 }
 

@@ -264,8 +264,8 @@ TEST(GltfMesh, BoundsAreChecked) {
       "is 7, but there are 2 accessors");
   has(broken([](Json& j) { j["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = -1; }),
       "must not be negative");
-  has(broken([](Json& j) { j["meshes"][0]["primitives"][0]["material"] = 0; }), "but there are 0 materials");
-  has(broken([](Json& j) { j["bufferViews"][0]["buffer"] = 1; }), "but there are 1 buffers");
+  has(broken([](Json& j) { j["meshes"][0]["primitives"][0]["material"] = 0; }), "but there are no materials");
+  has(broken([](Json& j) { j["bufferViews"][0]["buffer"] = 1; }), "but there is 1 buffer");
   has(broken([](Json& j) {
         j["accessors"][0]["sparse"] = {{"count", 3000000000U},
                                        {"indices", {{"bufferView", 1}, {"componentType", test::kUshort}}},

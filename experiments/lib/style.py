@@ -48,25 +48,19 @@ class EndLabels:
     def add(self, x, y, text, colour=BLACK):
         self.labels.append((x, y, text, colour))
 
-    def place(self, room=0.3, size=9, gap=1.3):
-        """room: the part of the axis's width kept free for the texts; gap: lines of text from one to the next."""
-        axis = self.axis
-        to, back = axis.transScale.transform, axis.transScale.inverted().transform
-        axis.autoscale_view()
-        (left, right), bottom = axis.get_xlim(), axis.get_ylim()[0]
-        (start, low), end = to((left, bottom)), to((right, bottom))[0]
-        axis.set_xlim(left, back((start + (end - start) / (1 - room), low))[0])
-        axis.figure.canvas.draw()
-        display = axis.transData.transform
-        ends = sorted(((*display((x, y)), text, colour) for x, y, text, colour in self.labels), key=lambda e: e[1])
-        step = size * gap * axis.figure.dpi / 72
-        heights = spread([e[1] for e in ends], [step * (e[2].count("\n") + 1) for e in ends])
-        column = display((right, bottom))[0] + 10
-        for (x, y, text, colour), height in zip(ends, heights):
-            axis.annotate(text, xy=axis.transData.inverted().transform((x, y)),
-                          xytext=axis.transAxes.inverted().transform((column, height)), textcoords="axes fraction",
-                          fontsize=size, color=colour, va="center", annotation_clip=False,
-                          arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.6, "alpha": 0.6, "shrinkB": 3})
+    def place(self, size=9, gap=1.3):
+        """Right of the axes, which the layout makes narrower for them; gap: lines of text from one to the next."""
+        figure_, to = self.axis.figure, self.axis.transAxes.inverted().transform
+        figure_.canvas.draw()  # the layout, without texts, decides the heights
+        ends = [(self.axis.transData.transform((x, y))[1], x, y, text, colour) for x, y, text, colour in self.labels]
+        ends.sort(key=lambda e: e[0])
+        step = size * gap * figure_.dpi / 72
+        heights = spread([e[0] for e in ends], [step * (e[3].count("\n") + 1) for e in ends])
+        for (_, x, y, text, colour), height in zip(ends, heights):
+            self.axis.annotate(text, xy=(x, y), xytext=(1.03, to((0, height))[1]), textcoords="axes fraction",
+                               fontsize=size, color=colour, va="center", annotation_clip=False,
+                               arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.6, "alpha": 0.6,
+                                           "shrinkB": 3})
 
 
 def spread(centres, heights):

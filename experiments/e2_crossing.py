@@ -108,7 +108,7 @@ def autoThreshold(rows):
 
 
 def plotPanel(axis, rows, threads, automatic):
-    """One number of threads; returns the crossing of the whole frame and its interval."""
+    """One number of threads; returns its labels, to be placed when the whole figure is laid out."""
     labels, results = style.EndLabels(axis), {}
     for i, (column, words) in enumerate(MEASURES):
         ratios = Ratios(rows, column, threads)
@@ -126,15 +126,16 @@ def plotPanel(axis, rows, threads, automatic):
                       xycoords=("data", "axes fraction"), textcoords="offset points", color=style.GREY)
     axis.set(xscale="log", yscale="log", ylabel="time with the array /\ntime with the tree")
     axis.set_title(f"{threads} thread{'s' if threads > 1 else ''}: the tree wins the frame from "
-                   f"{numpy.ceil(results['render'][0]):.0f} triangles on")
-    labels.place()
+                   f"about {numpy.ceil(results['render'][0]):.0f} triangles on")
+    return labels
 
 
 def plot(folder):
     rows = table.read(folder / "data", "e2_crossing")
     threads = sorted({r["threads"] for r in rows if r["search"] != "auto"})
     figure, axes = style.figure(rows=len(threads), height=3.4 * len(threads), sharex=True, squeeze=False)
-    for axis, number in zip(axes[:, 0], threads):
-        plotPanel(axis, rows, number, autoThreshold(rows))
+    labels = [plotPanel(axis, rows, number, autoThreshold(rows)) for axis, number in zip(axes[:, 0], threads)]
     axes[-1, 0].set_xlabel("triangles")
+    for panel in labels:
+        panel.place()
     style.save(figure, folder, "e2_crossing")

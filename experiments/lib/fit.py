@@ -48,8 +48,10 @@ def halfWidths(jacobian, residuals):
     if freedom < 1:
         return numpy.full(jacobian.shape[1], numpy.inf)
     variance = residuals @ residuals / freedom
-    covariance = variance * numpy.linalg.pinv(jacobian.T @ jacobian)
-    return student(freedom) * numpy.sqrt(numpy.diag(covariance))
+    # Columns of length 1: parameters of very different sizes would make the matrix look singular.
+    length = numpy.maximum(numpy.linalg.norm(jacobian, axis=0), 1e-300)
+    unit = jacobian / length
+    return student(freedom) * numpy.sqrt(variance * numpy.diag(numpy.linalg.pinv(unit.T @ unit))) / length
 
 
 def solve(design, y):

@@ -55,7 +55,8 @@ class EndLabels:
         ends = [(self.axis.transData.transform((x, y))[1], x, y, text, colour) for x, y, text, colour in self.labels]
         ends.sort(key=lambda e: e[0])
         step = size * gap * figure_.dpi / 72
-        heights = spread([e[0] for e in ends], [step * (e[3].count("\n") + 1) for e in ends])
+        box = self.axis.get_window_extent()
+        heights = spread([e[0] for e in ends], [step * (e[3].count("\n") + 1) for e in ends], box.y0, box.y1)
         for (_, x, y, text, colour), height in zip(ends, heights):
             self.axis.annotate(text, xy=(x, y), xytext=(1.03, to((0, height))[1]), textcoords="axes fraction",
                                fontsize=size, color=colour, va="center", annotation_clip=False,
@@ -63,12 +64,15 @@ class EndLabels:
                                            "shrinkB": 3})
 
 
-def spread(centres, heights):
-    """Sorted positions as near to the wanted ones as may be without overlap: neighbours that touch become one block
-    around the mean of what its members want."""
+def spread(centres, heights, low, high):
+    """Sorted positions between low and high, as near to the wanted ones as may be without overlap: neighbours that touch
+    become one block around the mean of what its members want."""
+
+    def inside(start, height):
+        return max(min(start, high - height), low)
     blocks = []  # members, height, start
     for i, (centre, height) in enumerate(zip(centres, heights)):
-        blocks.append([[i], height, centre - height / 2])
+        blocks.append([[i], height, inside(centre - height / 2, height)])
         while len(blocks) > 1 and blocks[-2][2] + blocks[-2][1] > blocks[-1][2]:
             later = blocks.pop()
             members, total = blocks[-1][0] + later[0], blocks[-1][1] + later[1]
@@ -76,7 +80,7 @@ def spread(centres, heights):
             for m in members:
                 start += centres[m] - heights[m] / 2 - offset
                 offset += heights[m]
-            blocks[-1] = [members, total, start / len(members)]
+            blocks[-1] = [members, total, inside(start / len(members), total)]
     placed = [0.0] * len(centres)
     for members, _, start in blocks:
         for m in members:

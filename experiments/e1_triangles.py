@@ -81,7 +81,8 @@ def measureAll(context, out, ends):
 
 
 def measure(context):
-    measureAll(context, context.table("e1_triangles", COLUMNS), context.table("e1_ends", ["curve", "squares", "reason"]))
+    ends = context.table("e1_ends", ["curve", "squares", "reason"])
+    measureAll(context, context.table("e1_triangles", COLUMNS), ends)
 
 
 def threadsText(threads):

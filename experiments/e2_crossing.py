@@ -118,12 +118,13 @@ def plotPanel(axis, rows, threads, automatic):
         results[column] = crossing(ratios.x, ratios.medians()), *ratios.interval()
         at, low, high = results[column]
         axis.axvspan(low, high, color=style.look(i)["color"], alpha=0.15, linewidth=0)
-        labels.add(ratios.x[-1], y[-1], f"{words}\ncrosses at {at:.0f} [{low:.0f}, {high:.0f}]", style.look(i)["color"])
+        text = f"{words}\ncrosses at {at:.0f} [{low:.0f}, {high:.0f}]"
+        labels.add(ratios.x[-1], y[-1], text, style.look(i)["color"])
     axis.axhline(1, color=style.BLACK, linewidth=0.8)
     if automatic:
         axis.axvline(automatic, color=style.GREY, linewidth=1, linestyle=":")
-        axis.annotate(f"--search auto takes\nthe tree from {automatic}", (automatic, 0.97), (4, 0), va="top", fontsize=8.5,
-                      xycoords=("data", "axes fraction"), textcoords="offset points", color=style.GREY)
+        axis.annotate(f"--search auto takes\nthe tree from {automatic}", (automatic, 0.97), (4, 0), va="top",
+                      fontsize=8.5, xycoords=("data", "axes fraction"), textcoords="offset points", color=style.GREY)
     axis.set(xscale="log", yscale="log", ylabel="time with the array /\ntime with the tree")
     axis.set_title(f"{threads} thread{'s' if threads > 1 else ''}: the tree wins the frame from "
                    f"about {numpy.ceil(results['render'][0]):.0f} triangles on")

@@ -1,13 +1,13 @@
 """E3: What does a ray cost as the scene outgrows the caches?
 
 Height fields of 2 N² triangles, always the same part of the picture, so that the same rays meet ever more and smaller
-triangles. Held constant: camera, rays, one thread (so that "a core's L2" is one cache). Varied: triangles. Coherent rays:
-stages `intersect` (eye rays) and `occlude` (shadow rays) of whole frames, 640×360, and incoherent ones: `whittle bench`,
-eye, shadow, cosine and uniform rays through the same tree. Cost is given per ray; the scene's memory is the tree and the
-triangle records on the device.
+triangles. Held constant: camera, rays, one thread (so that a core's L2 is one cache). Varied: triangles. Coherent
+rays: stages `intersect` (eye rays) and `occlude` (shadow rays) of whole frames, 640×360. Incoherent ones: `whittle
+bench`, eye, shadow, cosine and uniform rays through the same tree. Cost is given per ray; the scene's memory is the
+tree and the triangle records on the device.
 
-Writes e3_cache.tsv (a row for each stage and run, or kind of ray); figure e3_cache. Two lines that meet, in cost against
-log2 of the bytes, say where it bends and how steep it is on either side.
+Writes e3_cache.tsv (a row for each stage and run, or kind of ray); figure e3_cache. Two lines that meet, in cost
+against log2 of the bytes, say where it bends and how steep it is on either side.
 """
 import math
 
@@ -29,8 +29,9 @@ def measureFrame(context, scene, squares, out):
         used = s["memory"]["tree"] + s["memory"]["triangles"]
         for stage in s["stages"]:
             if stage["name"] in STAGES and stage["items"]:
-                out.row(source="frame", rays=STAGES[stage["name"]], squares=squares, triangles=2 * squares**2, bytes=used,
-                        repetition=repetition, count=stage["items"], nanoseconds=1e9 * stage["seconds"] / stage["items"])
+                out.row(source="frame", rays=STAGES[stage["name"]], squares=squares, triangles=2 * squares**2,
+                        bytes=used, repetition=repetition, count=stage["items"],
+                        nanoseconds=1e9 * stage["seconds"] / stage["items"])
     return used
 
 

@@ -23,7 +23,8 @@ def row(context, scene, name, kind, out):
     two = ""
     if 1 < triangles <= BENCHED:
         report = context.bench(scene, "--rays", 1024, "--runs", 1)
-        two = round(triangles * next((k["nodeBytesPerTriangle"] for k in report["kernels"] if k["kernel"] == "single2"), 0))
+        each = {k["kernel"]: k["nodeBytesPerTriangle"] for k in report["kernels"]}
+        two = round(triangles * each["single2"])
     out.row(scene=name, kind=kind, triangles=triangles, tree=memory["tree"], triangle_bytes=memory["triangles"],
             wideNodes=buffers.get("wideNodes", ""), leaves=buffers.get("leaves", ""), twoWideNodes=two,
             resident=memory["total"])
@@ -67,8 +68,8 @@ def plot(folder):
         style.draw(bottom, i, x, each)
         below.add(x[-1], each[-1], f"{each[-1]:.1f} B", colour)
         if column == "tree":
-            title = f"Linear: {law.values[1]:.1f} B of tree for each triangle, {fit.shown(*fit.power(x[-6:], y[-6:])[1])} " \
-                    "as a power"
+            power = fit.power(*(v[fit.straightEnd(x, y):] for v in (x, y)))
+            title = f"Tree: {law.values[1]:.1f} B for each triangle; grows as n^({fit.shown(*power[1])})"
     others = [r for r in rows if r["kind"] != "height field" and r["triangles"] > 100]
     for i in (0, 1):
         bottom.plot([r["triangles"] for r in others], [r[LINES[i][0]] / r["triangles"] for r in others], linestyle="",

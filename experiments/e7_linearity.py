@@ -12,7 +12,8 @@ from lib import fit, style, table
 from lib.context import SCENES, size
 from lib.measure import curve, interleaved
 
-COLUMNS = ["sweep", "scene", "x", "width", "height", "raysPerPixel", "bounces", "repetition", "render", "rays", "launches"]
+COLUMNS = ["sweep", "scene", "x", "width", "height", "raysPerPixel", "bounces", "repetition", "render", "rays",
+           "launches"]
 SPONZA = "bench/crytek-sponza/crytek-sponza.glb"
 SWEEPS = {"pixels": "pixels", "samples": "rays for each pixel", "depth": "bounces (depth)"}
 
@@ -64,29 +65,32 @@ def perRay(rows):
 
 
 def words(name, x, y):
-    """The scene with the fit of time against x: its power where that is nearly 1 also the constant of a + b x."""
+    """The scene with its power law, and the constant a of a + b x where that is known to better than a factor."""
     if len(x) < 3:
         return name
     power, line = fit.power(x, y), fit.linear(x, y, relative=True)
     text = f"{name}\n∝ x^({fit.shown(*power[1])})"
     constant, half = line[0]
-    return text + f"\n{1e3 * constant:.1f} ± {1e3 * half:.1f} ms at 0" if half < 10 * abs(constant) else text
+    return text + f"\n{1e3 * constant:.1f} ± {1e3 * half:.1f} ms at 0" if half < abs(constant) else text
 
 
 def plotSweep(above, below, rows, sweep, looks):
-    """One column of the figure."""
-    powers, labels = [], style.EndLabels(above)
+    """Time above, time for each ray below; the title says how far the latter is from constant."""
+    factors, labels = [], style.EndLabels(above)
     for name in dict.fromkeys(r["scene"] for r in rows):
         i = looks[name]
         x, y, low, high = curve(rows, "x", "render", scene=name)
         style.draw(above, i, x, y, low, high)
-        powers.append(fit.power(x, y).values[1])
-        labels.add(x[-1], y[-1], words(name.replace("_", " "), x, y), style.look(i)["color"])
-        style.draw(below, i, *curve(perRay(rows), "x", "nanoseconds", scene=name))
-    above.set(xscale="log", yscale="log")
-    below.set(xscale="log", xlabel=SWEEPS[sweep])
+        text = name.replace("_", " ")
+        labels.add(x[-1], y[-1], text if sweep == "depth" else words(text, x, y), style.look(i)["color"])
+        cost = curve(perRay(rows), "x", "nanoseconds", scene=name)
+        style.draw(below, i, *cost)
+        factors.append(max(cost[1]) / min(cost[1]))
+    scale = "linear" if sweep == "depth" else "log"  # rays grow with depth by steps or powers, not by decades
+    above.set(xscale=scale, yscale="log")
+    below.set(xscale=scale, xlabel=SWEEPS[sweep])
     below.set_ylim(bottom=0)
-    above.set_title(f"∝ x^{min(powers):.2f} to x^{max(powers):.2f}")
+    above.set_title(f"the cost of a ray varies by {min(factors):.2g} to {max(factors):.2g} times")
     return labels
 
 
@@ -100,6 +104,6 @@ def plot(folder):
         labels = plotSweep(above, below, chosen, sweep, looks)
         above.set_ylabel("time of a frame, s")
         below.set_ylabel("time for each ray, ns")
-        above.set_title(f"Time against {SWEEPS[sweep]}: {above.get_title(loc='left')}")
+        above.set_title(f"Over the {SWEEPS[sweep]}, {above.get_title(loc='left')}")
         labels.place()
         style.save(figure, folder, f"e7_{sweep}")

@@ -126,7 +126,7 @@ def bend(x, y):
 
 
 def gaussNewton(model, start, x, y, steps=100):
-    """Least squares of relative errors, parameters never negative; numeric derivatives, steps halved until they help."""
+    """Least squares of relative errors, no parameter below 0; numeric derivatives, steps halved until they help."""
     values = numpy.asarray(start, float)
 
     def residuals(v):

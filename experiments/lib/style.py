@@ -50,8 +50,9 @@ class EndLabels:
 
     def place(self, size=9, gap=1.3):
         """Right of the axes, which the layout makes narrower for them; gap: lines of text from one to the next."""
-        figure_, to = self.axis.figure, self.axis.transAxes.inverted().transform
+        figure_ = self.axis.figure
         figure_.canvas.draw()  # the layout, without texts, decides the heights
+        to = self.axis.transAxes.inverted().transform
         ends = [(self.axis.transData.transform((x, y))[1], x, y, text, colour) for x, y, text, colour in self.labels]
         ends.sort(key=lambda e: e[0])
         step = size * gap * figure_.dpi / 72
@@ -65,8 +66,8 @@ class EndLabels:
 
 
 def spread(centres, heights, low, high):
-    """Sorted positions between low and high, as near to the wanted ones as may be without overlap: neighbours that touch
-    become one block around the mean of what its members want."""
+    """Sorted positions between low and high, as near to the wanted ones as may be without overlap: neighbours that
+    touch become one block around the mean of what its members want."""
 
     def inside(start, height):
         return max(min(start, high - height), low)

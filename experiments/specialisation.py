@@ -5,7 +5,8 @@ For each scene, in turn: renders as they are and with --keep-all-features, inter
 time to compile with nothing on disk, bytes of buffers, and the pixels in which the pictures differ (there must be none).
 Then the plainest scene with one feature more, for each feature that it does without, interleaved with the scene as it is.
 
-writes: specialisation.tsv, specialisation_features.tsv, specialisation.svg and .png beside this script (--out FOLDER: there)
+writes: data/specialisation.tsv and specialisation_features.tsv, figures/specialisation.svg and .png, in this folder or
+        that of --out
 usage: experiments/specialisation.py [--quick] [--runs N] [--whittle FILE] [--out FOLDER] [--plot] [SCENE.glb ...]
        without scenes: our own, the generated frame, and shared ones where they are; --plot: draws the data again
 needs: Debian's python3-matplotlib; /usr/bin/python3
@@ -141,8 +142,8 @@ def plot(folder):
     matplotlib.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "whittle"})
     import matplotlib.pyplot as plt
 
-    rows = sorted(table(folder / "specialisation.tsv"), key=lambda r: float(r["frame_ratio"]))
-    features = sorted(table(folder / "specialisation_features.tsv"), key=lambda r: float(r["frame_ratio"]))
+    rows = sorted(table(folder / "data" / "specialisation.tsv"), key=lambda r: float(r["frame_ratio"]))
+    features = sorted(table(folder / "data" / "specialisation_features.tsv"), key=lambda r: float(r["frame_ratio"]))
     figure, axes = plt.subplots(1, 4, figsize=(14, 0.24 * max(len(rows), len(features)) + 1.3), layout="constrained",
                                 width_ratios=[1, 1, 1, 1.1])
     panels = [("frame_ratio", "frame: times faster\nthan with everything", 1.0), ("compile_ratio", "compile, nothing on disk:\ntimes faster", 1.0),
@@ -167,11 +168,14 @@ def plot(folder):
     last.set_ylim(-0.6, len(features) - 0.4)
     last.set_xlabel(f"{PLAINEST.stem} with one feature more:\nframe slower by, % (half of the middle half)")
     for kind in ("svg", "png"):
-        figure.savefig(folder / f"specialisation.{kind}", dpi=130, metadata={"Date": None} if kind == "svg" else None)
+        figure.savefig(folder / "figures" / f"specialisation.{kind}", dpi=130, metadata={"Date": None} if kind == "svg" else None)
 
 
 def main():
     a = arguments()
+    data = a.out / "data"
+    for part in (data, a.out / "figures"):
+        part.mkdir(parents=True, exist_ok=True)
     if not a.plot:
         with tempfile.TemporaryDirectory() as folder:
             scenes = a.scenes
@@ -186,9 +190,9 @@ def main():
                     print(f"{len(SHARED_SCENES) - len(there)} shared scenes are not there and are left out", file=sys.stderr)
                 scenes += there
             renders = Renders(a, folder)
-            with open(a.out / "specialisation.tsv", "w") as out:
+            with open(data / "specialisation.tsv", "w") as out:
                 measureScenes(renders, scenes, out)
-            with open(a.out / "specialisation_features.tsv", "w") as out:
+            with open(data / "specialisation_features.tsv", "w") as out:
                 measureFeatures(renders, out)
     plot(a.out)
 

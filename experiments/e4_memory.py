@@ -1,0 +1,81 @@
+"""E4: Is the memory of the tree linear in the triangles, and how many bytes does a triangle take?
+
+Height fields of 2 N² triangles, then the project's own scenes and, where they are, shared ones, to see whether other
+shapes need as much. Held constant: device and settings that decide what is kept of a scene. Nothing is timed; the
+bytes come from the statistics (groups `tree` and `triangles`, buffers by name) and, for the two-wide tree that a CPU
+does not upload, from `whittle bench`.
+
+Writes e4_memory.tsv (a row for each scene); figure e4_memory.
+"""
+from lib import fit, style, table
+from lib.context import SCENES, size
+
+COLUMNS = ["scene", "kind", "triangles", "tree", "triangle_bytes", "wideNodes", "leaves", "twoWideNodes", "resident"]
+SHARED = ["bench/crytek-sponza/crytek-sponza.glb", "bench/teapot-full/teapot-full.glb",
+          "bench/cornell-mcguire/CornellBox-Original.glb"]
+BENCHED = 200_000  # triangles; larger scenes need not be benched, as theirs are the same bytes for each triangle
+
+
+def row(context, scene, name, kind, out):
+    s = context.render(scene, "--search", "tree", "--bounces", 1, *size(16, 9))
+    memory, triangles = s["memory"], s["scene"]["triangles"]
+    buffers = {b["name"]: b["bytes"] for b in memory["buffers"]}
+    two = ""
+    if 1 < triangles <= BENCHED:
+        report = context.bench(scene, "--rays", 1024, "--runs", 1)
+        each = {k["kernel"]: k["nodeBytesPerTriangle"] for k in report["kernels"]}
+        two = round(triangles * each["single2"])
+    out.row(scene=name, kind=kind, triangles=triangles, tree=memory["tree"], triangle_bytes=memory["triangles"],
+            wideNodes=buffers.get("wideNodes", ""), leaves=buffers.get("leaves", ""), twoWideNodes=two,
+            resident=memory["total"])
+
+
+def measure(context):
+    out = context.table("e4_memory", COLUMNS)
+    squares = context.pick([1, 4, 16, 64, 256], [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024,
+                                                 2048])
+    own = context.pick(["cornell_box"], sorted(f.stem for f in SCENES.glob("*.glb")))
+    others = [(f"{SCENES / name}.glb", name, "own") for name in own if name != "height_field"]
+    others += [(f, f.stem, "shared") for f in map(context.shared, context.pick(SHARED[:1], SHARED)) if f]
+    progress = context.progress("e4", len(squares) + len(others))
+    for n in squares:
+        scene = context.heightField(n)
+        row(context, scene, f"height field {n}", "height field", out)
+        scene.unlink()
+        progress.step(f"{2 * n**2} triangles")
+    for file, name, kind in others:
+        row(context, file, name, kind, out)
+        progress.step(name)
+
+
+LINES = [("tree", "tree of the searches:\neight-wide nodes, leaves"), ("triangle_bytes", "triangle records"),
+         ("wideNodes", "eight-wide nodes alone"), ("twoWideNodes", "two-wide nodes\n(GPUs use these)")]
+
+
+def plot(folder):
+    rows = table.read(folder / "data", "e4_memory")
+    figure, (top, bottom) = style.figure(rows=2, height=7.6, sharex=True, height_ratios=[1.3, 1])
+    above, below = style.EndLabels(top), style.EndLabels(bottom)
+    fields = [r for r in rows if r["kind"] == "height field"]
+    for i, (column, words) in enumerate(LINES):
+        points = sorted((r["triangles"], r[column]) for r in fields if r[column] != "")
+        x, y = zip(*points)
+        law = fit.linear(x, y)
+        style.draw(top, i, x, y)
+        colour = style.look(i)["color"]
+        above.add(x[-1], y[-1], f"{words}\n{fit.shown(*law[1])} B each", colour)
+        each = [b / n for n, b in points]
+        style.draw(bottom, i, x, each)
+        below.add(x[-1], each[-1], f"{each[-1]:.1f} B", colour)
+        if column == "tree":
+            power = fit.power(*(v[fit.straightEnd(x, y):] for v in (x, y)))
+            title = f"Tree: {law.values[1]:.1f} B for each triangle; grows as n^({fit.shown(*power[1])})"
+    others = [r for r in rows if r["kind"] != "height field" and r["triangles"] > 100]
+    for i in (0, 1):
+        bottom.plot([r["triangles"] for r in others], [r[LINES[i][0]] / r["triangles"] for r in others], linestyle="",
+                    marker="+", markersize=8, color=style.look(i)["color"])
+    top.set(xscale="log", yscale="log", ylabel="bytes", title=title)
+    bottom.set(yscale="log", xlabel="triangles", ylabel="bytes for each triangle\n(+: other scenes)")
+    above.place()
+    below.place()
+    style.save(figure, folder, "e4_memory")

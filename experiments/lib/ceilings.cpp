@@ -3,7 +3,8 @@
 // show here), fused multiply-adds on whole vectors (so do clocks that fall under wide vectors), and McCalpin's STREAM
 // triad a = b + s c, which only memory bounds.
 // Prints lines of "KIND<tab>THREADS<tab>RATE": operations/s, flop/s, bytes/s as STREAM counts them (24 for each element).
-// usage: machine THREADS[,THREADS...] SECONDS MEGABYTES_FOR_EACH_ARRAY
+// usage: ceilings THREADS[,THREADS...] SECONDS MEGABYTES_FOR_EACH_ARRAY
+#include <algorithm>
 #include <barrier>
 #include <chrono>
 #include <cstdint>
@@ -100,7 +101,7 @@ double rate(int threads, double seconds, const std::function<Slice()>& make) {
 
 int main(int argc, char** argv) {
   if (argc != 4) {
-    std::fprintf(stderr, "usage: machine THREADS[,THREADS...] SECONDS MEGABYTES_FOR_EACH_ARRAY\n");
+    std::fprintf(stderr, "usage: ceilings THREADS[,THREADS...] SECONDS MEGABYTES_FOR_EACH_ARRAY\n");
     return 2;
   }
   const double seconds = std::atof(argv[2]);

@@ -1,57 +1,47 @@
-"""The machine's own ceilings, measured by machine.cpp: arithmetic and memory on N threads, and what its processors are."""
-import collections
+"""The machine's own ceilings, measured by ceilings.cpp: arithmetic and memory on N threads; whether processors share cores."""
 import os
 import pathlib
-import re
-import statistics
 import subprocess
-import sys
+
+from lib import measure
+from lib.context import RunFailed, Skipped
 
 SOURCE = pathlib.Path(__file__).with_suffix(".cpp")
-KINDS = ("integer", "fma", "triad")
-
-
-def cores():
-    """Processors this process may use: hyper-threads where the machine has them (see topology)."""
-    return len(os.sched_getaffinity(0))
-
-
-def topology():
-    """(cores, threads of each) as the kernel tells, or None where it does not. A virtual machine may tell anything."""
-    siblings = set()
-    for file in pathlib.Path("/sys/devices/system/cpu").glob("cpu[0-9]*/topology/thread_siblings_list"):
-        siblings.add(file.read_text().strip())
-    return (len(siblings), max(len(re.split("[,-]", s)) for s in siblings)) if siblings else None
+COLUMNS = ["kind", "threads", "run", "rate"]
 
 
 def compiled(folder):
-    program = pathlib.Path(folder) / "machine"
-    compiler = os.environ.get("CXX", "g++")
+    program, compiler = folder / "ceilings", os.environ.get("CXX", "g++")
     command = [compiler, "-std=c++20", "-O3", "-march=native", "-pthread", "-o", program, SOURCE]
     try:
         done = subprocess.run(command, capture_output=True, text=True)
     except FileNotFoundError:
-        sys.exit(f"{compiler}: no such compiler; set CXX to one that knows C++20")
+        raise Skipped(f"{compiler}: no such compiler; set CXX to one that knows C++20") from None
     if done.returncode != 0:
-        sys.exit(f"{SOURCE.name}: {compiler} cannot compile it:\n{done.stderr}")
+        raise RunFailed(f"{compiler} cannot compile {SOURCE.name}: {done.stderr.strip().splitlines()[-1]}")
     return program
 
 
-def measure(folder, threads, runs, quick):
-    """Rows of (kind, threads, run, rate), thread counts in turn within each run."""
-    program = compiled(folder)
-    seconds, megabytes = ("0.1", "64") if quick else ("0.5", "256")  # STREAM asks for four times the last cache
-    rows = []
+def record(context, name, threads, runs):
+    """Table `name`: rates on each of these thread counts, which take turns."""
+    program = compiled(context.folder)
+    # STREAM asks for arrays of four times the last cache.
+    seconds, megabytes = context.pick((0.1, 64), (0.5, 256))
+    table = context.table(name, COLUMNS)
     for run in range(runs):
-        text = subprocess.run([program, ",".join(map(str, threads)), seconds, megabytes], capture_output=True, text=True,
-                              check=True).stdout
-        rows += [(kind, int(n), run, float(rate)) for kind, n, rate in map(str.split, text.splitlines())]
-    return rows
+        command = [program, ",".join(map(str, threads)), str(seconds), str(megabytes)]
+        for line in subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines():
+            kind, count, rate = line.split("\t")
+            table.row(kind=kind, threads=int(count), run=run, rate=float(rate))
 
 
-def medians(rows):
-    """{kind: {threads: median rate}} of rows with these columns, as measured or as read from a table."""
-    rates = collections.defaultdict(lambda: collections.defaultdict(list))
-    for kind, threads, _, rate in rows:
-        rates[kind][int(threads)].append(float(rate))
-    return {kind: {n: statistics.median(r) for n, r in sorted(by.items())} for kind, by in rates.items()}
+def medians(rows, kind):
+    """{threads: rate}"""
+    threads, rates, _, _ = measure.curve(rows, "threads", "rate", kind=kind)
+    return dict(zip(threads, rates))
+
+
+def siblings(cpu):
+    """What the record of the machine says of its processors. A virtual machine may be told anything."""
+    each = cpu.get("threadsPerCore") or "?"
+    return f"{cpu['threads']} processors, {each} thread{'s' if each != '1' else ''} for each core"

@@ -19,7 +19,7 @@ from lib.context import ROOT, size
 # (name in the tables and figures, how to come by it); Sponza is left out where it is not there
 SCENES = [("Cornell box", lambda c: ROOT / "scenes" / "cornell_box.glb"),
           ("height field", lambda c: c.heightField(c.pick(128, 512))), ("frame", lambda c: c.generated("frame", "--frame")),
-          ("Sponza", lambda c: c.pick(None, c.shared("bench/crytek-sponza/crytek-sponza.glb")))]
+          ("Sponza", lambda c: c.shared("bench/crytek-sponza/crytek-sponza.glb"))]
 GROUPS_AT_LEAST = 32  # PoCL's threads take at least so many work-groups of a launch at a time (POCL_PTHREAD_MIN_WGS)
 
 
@@ -41,7 +41,7 @@ def measure(context):
 
 
 def scenes(context):
-    for name, find in SCENES:
+    for name, find in context.pick(SCENES[:3], SCENES):
         file = find(context)
         if file:
             yield name, file
@@ -63,7 +63,7 @@ def measureFrames(context, counts, runs):
     byStage = context.table("e5_stages", ["scene", "threads", "run", "stage", "launches", "seconds"])
     launches = context.table("e5_launches", ["scene", "stage", "bounce", "items", "groups", "one_thread_s",
                                              "all_processors_s"])
-    progress = context.progress("e5", len(SCENES) * len(counts) * runs)
+    progress = context.progress("e5", len(context.pick(SCENES[:3], SCENES)) * len(counts) * runs)
     for name, file in scenes(context):
         single = {1: [], context.threads: []}  # launches, run by run
         variants = {n: functools.partial(traced, context, file, n) for n in counts}

@@ -7,7 +7,6 @@ Writes data/e8_stages.tsv (each run; bounce 0: the whole frame, -1: outside the 
 figures/e8_profile, e8_bounces, e8_rates.
 """
 import functools
-import json
 
 from lib import ceilings, measure as repeat, stages
 from lib.context import ROOT, size
@@ -36,23 +35,17 @@ def scenes(context):
 def measure(context):
     ceilings.record(context, "e8_ceilings", sorted({1, context.threads}), context.pick(2, 7))
     out = context.table("e8_stages", COLUMNS)
-    found, runs = scenes(context), context.pick(2, 7)
+    found, runs = scenes(context), context.pick(1, 7)
     progress = context.progress("e8", len(found) * runs)
-    variants = {name: functools.partial(traced, context, file) for name, file in found.items()}
-    for name, run, (stats, records) in repeat.interleaved(variants, runs):
+    picture = context.pick(size(320, 180), size(1280, 720))
+    variants = {name: functools.partial(context.render, file, *picture) for name, file in found.items()}
+    for name, run, stats in repeat.interleaved(variants, runs):
         key = dict(scene=name, triangles=stats["scene"]["triangles"], rays=stats["rays"]["total"], run=run,
                    render_s=stats["time"]["render"])
         writeStages(out, {**key, "bounce": WHOLE}, stages.grouped(stats["stages"]))
-        for bounce, sums in stages.byBounce(stats, records).items():
+        for bounce, sums in stages.byBounce(stats).items():
             writeStages(out, {**key, "bounce": bounce or OUTSIDE}, sums)
         progress.step(name)
-
-
-def traced(context, file):
-    """Statistics of a frame with its launches."""
-    trace = context.folder / "e8_trace.json"
-    stats = context.render(file, *context.pick(size(320, 180), size(1280, 720)), "--trace", trace)
-    return stats, stages.launches(json.loads(trace.read_text()))
 
 
 def writeStages(out, key, sums):

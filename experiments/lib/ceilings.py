@@ -26,7 +26,7 @@ def record(context, name, threads, runs):
     """Table `name`: rates on each of these thread counts, which take turns."""
     program = compiled(context.folder)
     # STREAM asks for arrays of four times the last cache.
-    seconds, megabytes = context.pick((0.1, 64), (0.5, 256))
+    seconds, megabytes = context.pick((0.05, 64), (0.5, 256))
     table = context.table(name, COLUMNS)
     for run in range(runs):
         command = [program, ",".join(map(str, threads)), str(seconds), str(megabytes)]

@@ -61,10 +61,10 @@ def nameParts(axis, centres, y, size=8.5):
     axis.figure.canvas.draw()
     pixels = [axis.transData.transform((centres[s], y))[0] for s in names]
     placed = style.spread(pixels, [size * 0.9 * (len(s) + 1) * axis.figure.dpi / 100 for s in names])
-    low, high = axis.get_window_extent().x0, axis.get_window_extent().x1
-    over = max(0, placed[-1] - high)
+    high = axis.get_window_extent().x1
+    shift = max(0, pixels[0] - placed[0]) or min(0, high - placed[-1])  # the first name never starts left of its part
     for stage, x in zip(names, placed):
-        to = axis.transAxes.inverted().transform((max(x - over, low), 0))[0]
+        to = axis.transAxes.inverted().transform((x + shift, 0))[0]
         axis.annotate(stage, xy=(centres[stage], y + 0.36), xytext=(to, 1.04), textcoords="axes fraction", ha="center",
                       fontsize=size, annotation_clip=False, arrowprops={"arrowstyle": "-", "color": style.GREY,
                                                                         "linewidth": 0.6})
@@ -148,8 +148,8 @@ def dotsByStage(axis, rows, column, unit):
         points = sorted((statistics.median(v), scene) for (scene,), v in by.items())
         axis.plot([p[0] for p in points], [y] * len(points), linestyle="none", marker="o", markersize=6,
                   markerfacecolor="white", markeredgecolor=style.BLUE, markeredgewidth=1.4)
-        axis.text(points[0][0], y + 0.2, f"{points[0][1]} {points[0][0]:.2g}", ha="left", fontsize=7.5)
-        axis.text(points[-1][0], y - 0.38, f"{points[-1][1]} {points[-1][0]:.2g}", ha="right", fontsize=7.5)
+        axis.text(points[0][0], y + 0.2, f"{points[0][1]} {points[0][0]:.3g}", ha="left", fontsize=7.5)
+        axis.text(points[-1][0], y - 0.38, f"{points[-1][1]} {points[-1][0]:.3g}", ha="right", fontsize=7.5)
     axis.set_xscale("log")
     axis.set_yticks(range(len(names)), names)
     axis.set_ylim(-0.6, len(names) - 0.4)

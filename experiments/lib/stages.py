@@ -39,18 +39,9 @@ def launches(trace):
     return [(e["name"], e["args"]["bounce"], e["args"]["items"], e["dur"] * 1e-6) for e in sorted(events, key=lambda e: e["ts"])]
 
 
-def byBounce(stats, records):
-    """{bounce: stages as grouped() has them}; from the statistics where they have bounces (bytes too), else from the
-    launches of a trace. Bounce 1 is what the eye sees; 0 is what belongs to none (raygen, film)."""
-    if "bounces" in stats:
-        return {b["bounce"]: grouped(b["stages"]) for b in stats["bounces"]}
-    sums = {}
-    for kernel, bounce, items, seconds in records:
-        total = sums.setdefault(bounce, {}).setdefault(kernel, {"name": kernel, "launches": 0, "seconds": 0.0, "items": 0})
-        total["launches"] += 1
-        total["seconds"] += seconds
-        total["items"] += items
-    return {bounce: grouped(kernels.values()) for bounce, kernels in sorted(sums.items())}
+def byBounce(stats):
+    """{bounce: stages as grouped() has them}. Bounce 1 is what the eye sees; 0 is what belongs to none (raygen, film)."""
+    return {b["bounce"]: grouped(b["stages"]) for b in stats.get("bounces", [])}
 
 
 class WorkGroups:

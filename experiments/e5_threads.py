@@ -8,12 +8,11 @@ Writes data/e5_ceilings.tsv (rates), e5_frames.tsv (seconds of each run), e5_sta
 e5_launches.tsv (each launch, medians, one thread against as many as processors), e5_build.tsv; figures/e5_speedup,
 e5_model, e5_losses.
 """
-import collections
 import functools
 import json
 import statistics
 
-from lib import ceilings, fit, measure as repeat, stages, style, table
+from lib import ceilings, fit, measure as repeat, stages, table
 from lib.context import ROOT, size
 
 # (name in the tables and figures, how to come by it); Sponza is left out where it is not there
@@ -34,7 +33,7 @@ def threadCounts(processors):
 
 
 def measure(context):
-    counts, runs = threadCounts(context.threads), context.pick(2, 9)
+    counts, runs = threadCounts(context.threads), context.pick(2, 7)
     ceilings.record(context, "e5_ceilings", counts, runs)
     measureFrames(context, counts, runs)
     measureBuild(context, context.pick(counts[:2], counts), context.pick(1, 5))
@@ -147,7 +146,7 @@ def fits(measured):
 
 
 PARTS = {"ideal": "one thread's frame, shared evenly", "machine": "the machine's own ceiling", "host": "host, serial",
-         "small": f"launches of too few work-groups", "searches": "searches", "streams": "other kernels"}
+         "small": "launches of too few work-groups", "searches": "searches", "streams": "other kernels"}
 
 
 def losses(measured, scene):

@@ -8,7 +8,7 @@ Writes data/e6_frames.tsv and e6_stages.tsv (each run of each sweep); figures/e6
 """
 import functools
 
-from lib import measure as repeat, stages, style, table
+from lib import measure as repeat, stages
 from lib.context import ROOT, size
 
 SCENES = [("Cornell box", lambda c: ROOT / "scenes" / "cornell_box.glb"), ("frame", lambda c: c.generated("frame", "--frame")),

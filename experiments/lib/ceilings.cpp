@@ -1,8 +1,8 @@
 // What the machine itself gives to N threads: the ceiling that any program's speed-up is held against.
-// Three loops, each for a fixed time on N threads at once: integer arithmetic in registers (threads that share one core
-// show here), fused multiply-adds on whole vectors (so do clocks that fall under wide vectors), and McCalpin's STREAM
-// triad a = b + s c, which only memory bounds.
-// Prints lines of "KIND<tab>THREADS<tab>RATE": operations/s, flop/s, bytes/s as STREAM counts them (24 for each element).
+// Three loops, each for a fixed time on N threads at once: integer arithmetic in registers (threads that
+// share one core show here), fused multiply-adds on whole vectors (so do clocks that fall under wide
+// vectors), and McCalpin's STREAM triad a = b + s c, which only memory bounds. Prints lines of
+// "KIND<tab>THREADS<tab>RATE": operations/s, flop/s, bytes/s as STREAM counts them (24 for each element).
 // usage: ceilings THREADS[,THREADS...] SECONDS MEGABYTES_FOR_EACH_ARRAY
 #include <algorithm>
 #include <barrier>
@@ -34,7 +34,8 @@ Slice arithmetic() {
   return [state = std::uint64_t{88172645463325252}]() mutable {
     constexpr int kSteps = 50000;
     std::uint64_t x = state;
-    for (int i = 0; i < kSteps; ++i) {  // Marsaglia's xorshift64: six operations, each waits for the one before
+    for (int i = 0; i < kSteps;
+         ++i) {  // Marsaglia's xorshift64: six operations, each waits for the one before
       x ^= x << 13;
       x ^= x >> 7;
       x ^= x << 17;
@@ -65,12 +66,13 @@ Slice triad(std::size_t elements) {
     std::vector<double> a, b, c;
     std::size_t next = 0;
   };
-  Arrays arrays{std::vector<double>(elements), std::vector<double>(elements, 1.0), std::vector<double>(elements, 2.0)};
+  Arrays arrays{std::vector<double>(elements), std::vector<double>(elements, 1.0),
+                std::vector<double>(elements, 2.0)};
   return [x = std::move(arrays)]() mutable {
     constexpr std::size_t kBlock = 16384;
     const std::size_t begin = x.next, end = std::min(begin + kBlock, x.a.size());
     double* __restrict a = x.a.data();
-    const double *__restrict b = x.b.data(), *__restrict c = x.c.data();
+    const double* __restrict b = x.b.data(), * __restrict c = x.c.data();
     for (std::size_t i = begin; i < end; ++i) a[i] = b[i] + 3.0 * c[i];
     touch(x.a[begin]);
     x.next = end == x.a.size() ? 0 : end;
@@ -78,11 +80,13 @@ Slice triad(std::size_t elements) {
   };
 }
 
-/// Work done by all threads together for each second: all start at one moment, and what is finished `seconds` later counts.
+/// Work done by all threads together for each second: all start at one moment, and what is finished `seconds`
+/// later counts.
 double rate(int threads, double seconds, const std::function<Slice()>& make) {
   Clock::time_point deadline;
   std::barrier start(threads, [&]() noexcept {
-    deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    deadline =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   });
   std::vector<double> work(threads);
   std::vector<std::thread> crew;

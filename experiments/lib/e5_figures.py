@@ -2,7 +2,7 @@
 import numpy
 
 import e5_threads as e5
-from lib import ceilings, dots, fit, measure as repeat, stages, style
+from lib import ceilings, dots, fit, stages, style
 
 STAGES = [s for s in stages.ORDER if s != "host"]
 

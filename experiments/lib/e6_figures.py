@@ -17,34 +17,42 @@ def draw(folder):
     launchesAndLanes(frames, scenes, folder)
 
 
+def sizeText(n):
+    """65536 -> "64 k"; the sizes are powers of two."""
+    return style.bytesText(n).replace("iB", "").replace("K", "k").replace(" B", "")
+
+
 def median(rows, column, **chosen):
     values = [r[column] for r in rows if all(r[k] == v for k, v in chosen.items())]
     return statistics.median(values) if values else None
 
 
 def curves(frames, byStage, scene, name):
-    """{stage or "frame": ([sizes], [times of the default's time])}; stages that take a share worth drawing."""
-    sizes = sorted({r["size"] for r in frames if r["sweep"] == name and r["size"] != "default"})
+    """{stage or "whole frame": ([sizes], [times of the default's time])}; stages that take a share worth drawing. The default
+    is a point too, at the size that it stands for."""
     key = dict(sweep=name, scene=scene)
+    usual = median(frames, "chosen", **key, size="default")
+    sizes = sorted({r["size"] for r in frames if r["sweep"] == name and r["size"] != "default"} | {usual})
+
+    def ratios(rows, column, **which):
+        default = median(rows, column, **key, **which, size="default")
+        times = [median(rows, column, **key, **which, size=n) for n in sizes]
+        return sizes, [1.0 if n == usual else time / default for n, time in zip(sizes, times)]
+
     frame = median(frames, "render_s", **key, size="default")
-    result = {"frame": (sizes, [median(frames, "render_s", **key, size=n) / frame for n in sizes])}
-    for stage in stages.ORDER:
-        usual = median(byStage, "seconds", **key, stage=stage, size="default")
-        if usual and usual >= SHARE * frame:
-            result[stage] = (sizes, [median(byStage, "seconds", **key, stage=stage, size=n) / usual for n in sizes])
-    return result
+    drawn = [s for s in stages.ORDER if (median(byStage, "seconds", **key, stage=s, size="default") or 0) >= SHARE * frame]
+    return {"whole frame": ratios(frames, "render_s"), **{s: ratios(byStage, "seconds", stage=s) for s in drawn}}
 
 
 def sweep(frames, byStage, scenes, name, label, folder, file):
     memory = name == "wavefront"
-    figure, axes = style.figure(len(scenes) + memory, 1, height=3.0 * (len(scenes) + memory * 0.75), sharex=True,
-                                squeeze=False)
+    figure, axes = style.figure(len(scenes) + memory, 1, height=3.0 * (len(scenes) + memory * 0.75), squeeze=False)
     every = []
     for axis, scene in zip(axes.flat, scenes):
         every.append(timesOfDefault(axis, curves(frames, byStage, scene, name)))
         usual = median(frames, "chosen", sweep=name, scene=scene, size="default")
         axis.axvline(usual, color=style.GREY, linewidth=0.9)
-        axis.text(usual, 1.0, f" default {style.countText(usual)}", transform=axis.get_xaxis_transform(), fontsize=8,
+        axis.text(usual, 1.0, f" default {sizeText(usual)}", transform=axis.get_xaxis_transform(), fontsize=8,
                   color=style.GREY, va="top")
         ms = 1e3 * median(frames, "render_s", sweep=name, scene=scene, size="default")
         axis.set_title(f"{scene}: {ms:.0f} ms", fontsize=10)
@@ -53,13 +61,11 @@ def sweep(frames, byStage, scenes, name, label, folder, file):
     sizes = sorted({r["size"] for r in frames if r["sweep"] == name and r["size"] != "default"})
     for axis, labels in zip(axes.flat, every):
         axis.set_xscale("log", base=2)
-        axis.set_xticks(sizes, [style.bytesText(n).replace(" KiB", " k").replace(" MiB", " M").replace(" B", "") for n in sizes])
+        axis.set_xticks(sizes, [sizeText(n) for n in sizes])
         axis.minorticks_off()
     axes[-1][0].set_xlabel(label)
-    # The axes share x, so that room for labels made on one is room on all.
-    every[0].place(room=0.2, size=8.5)
-    for labels in every[1:]:
-        labels.place(room=0.0, size=8.5)
+    for labels in every:
+        labels.place(room=0.2, size=8.5)
     style.save(figure, folder, file)
 
 
@@ -67,7 +73,7 @@ def timesOfDefault(axis, lines):
     """Lines with their best size filled black; returns the labels."""
     labels = style.EndLabels(axis)
     for i, (stage, (sizes, ratios)) in enumerate(lines.items()):
-        width = 2.6 if stage == "frame" else 1.4
+        width = 2.6 if stage == "whole frame" else 1.4
         style.draw(axis, i, sizes, ratios, linewidth=width)
         best = int(numpy.argmin(ratios))
         axis.plot(sizes[best], ratios[best], marker="*", color=style.look(i)["color"], markersize=13, markeredgecolor="white",
@@ -75,6 +81,7 @@ def timesOfDefault(axis, lines):
         labels.add(sizes[-1], ratios[-1], f"{stage}: best {ratios[best]:.2f}", style.look(i)["color"])
     axis.axhline(1, color=style.GREY, linestyle=":", linewidth=1)
     axis.set_yscale("log")
+    axis.margins(y=0.15)
     low, high = axis.get_ylim()
     ticks = [t for t in (0.2, 0.5, 0.7, 1, 1.5, 2, 3, 5, 10, 20, 50) if low <= t <= high]
     axis.set_yticks(ticks, [f"{t:g}" for t in ticks])
@@ -131,6 +138,6 @@ def lanes(axis, frames, scenes):
               for s in scenes}
     dots.draw(axis, rows, values, looks)
     axis.axvline(1, color=style.GREY, linestyle=":", linewidth=1)
-    axis.set_xlim(0)
+    axis.set_xlim(0, 1.1 * max(v for of in values.values() for v in of.values()))
     axis.set_xlabel("frame, of the default's time,\nwith so many rays for each work item")
     dots.names(axis, {s: v[rows[0]] for s, v in values.items()}, len(rows), looks)

@@ -108,9 +108,10 @@ def bounces(rows, folder):
         axis.set_visible(False)
     for axis, scene in zip(axes.flat, scenes):
         total = frame(rows, scene)
+        widest = max(100 / total * sum(seconds(rows, scene, b).values()) for b in range(1, deepest[scene] + 1))
         for bounce in range(1, deepest[scene] + 1):
             spent = seconds(rows, scene, bounce)
-            centres = bar(axis, bounce, spent, 100 / total, 6)
+            centres = bar(axis, bounce, spent, 100 / total, 0.06 * widest)
             if bounce == 1:
                 first = {s: c for s, c in centres.items() if spent.get(s, 0) > 0}
         axis.set_yticks(range(1, deepest[scene] + 1))

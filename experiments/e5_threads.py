@@ -17,7 +17,8 @@ from lib.context import ROOT, size
 
 # (name in the tables and figures, how to come by it); Sponza is left out where it is not there
 SCENES = [("Cornell box", lambda c: ROOT / "scenes" / "cornell_box.glb"),
-          ("height field", lambda c: c.heightField(c.pick(128, 512))), ("frame", lambda c: c.generated("frame", "--frame")),
+          ("height field", lambda c: c.heightField(c.pick(128, 512))),
+          ("frame", lambda c: c.generated("frame", "--frame")),
           ("Sponza", lambda c: c.shared("bench/crytek-sponza/crytek-sponza.glb"))]
 GROUPS_AT_LEAST = 32  # PoCL's threads take at least so many work-groups of a launch at a time (POCL_PTHREAD_MIN_WGS)
 
@@ -57,8 +58,8 @@ def traced(context, file, threads):
 
 
 def measureFrames(context, counts, runs):
-    frames = context.table("e5_frames", ["scene", "triangles", "width", "height", "threads", "run", "load_s", "render_s",
-                                         "device_s"])
+    frames = context.table("e5_frames", ["scene", "triangles", "width", "height", "threads", "run", "load_s",
+                                         "render_s", "device_s"])
     byStage = context.table("e5_stages", ["scene", "threads", "run", "stage", "launches", "seconds"])
     launches = context.table("e5_launches", ["scene", "stage", "bounce", "items", "groups", "one_thread_s",
                                              "all_processors_s"])
@@ -69,7 +70,8 @@ def measureFrames(context, counts, runs):
         for threads, run, (stats, records) in repeat.interleaved(variants, runs):
             s, t = stats["settings"], stats["time"]
             frames.row(scene=name, triangles=stats["scene"]["triangles"], width=s["width"], height=s["height"],
-                       threads=threads, run=run, load_s=t["load"], render_s=t["render"], device_s=stages.deviceSeconds(stats))
+                       threads=threads, run=run, load_s=t["load"], render_s=t["render"],
+                       device_s=stages.deviceSeconds(stats))
             for stage, sums in stages.grouped(stats["stages"]).items():
                 byStage.row(scene=name, threads=threads, run=run, stage=stage, launches=sums["launches"],
                             seconds=sums["seconds"])
@@ -83,8 +85,8 @@ def writeLaunches(out, scene, groups, one, every):
     """The same launches in every run, whatever the number of threads: medians over the runs."""
     for i, (kernel, bounce, items, _) in enumerate(one[0]):
         seconds = [statistics.median(run[i][3] for run in runs) for runs in (one, every)]
-        out.row(scene=scene, stage=stages.stageOf(kernel), bounce=bounce, items=items, groups=groups.count(kernel, items),
-                one_thread_s=seconds[0], all_processors_s=seconds[1])
+        out.row(scene=scene, stage=stages.stageOf(kernel), bounce=bounce, items=items,
+                groups=groups.count(kernel, items), one_thread_s=seconds[0], all_processors_s=seconds[1])
 
 
 def measureBuild(context, counts, runs):
@@ -150,8 +152,8 @@ PARTS = {"ideal": "one thread's frame, shared evenly", "machine": "the machine's
 
 
 def losses(measured, scene):
-    """{part: seconds} of the frame on all processors: what it would take shared evenly, and what comes on top. The parts
-    sum up to the frame, but for medians of sums and sums of medians."""
+    """{part: seconds} of the frame on all processors: what it would take shared evenly, and what comes on top. The
+    parts sum up to the frame, but for medians of sums and sums of medians."""
     limit = measured.running()[measured.processors]
     times = repeat.grouped([r for r in measured.frames if r["scene"] == scene], ["threads"], "render_s")
     one, every = (statistics.median(times[(n,)]) for n in (1, measured.processors))

@@ -1,21 +1,24 @@
 """E6: what do the sizes of work-groups and wavefronts, and lanes of a search, do to each stage and to memory?
 
-Held constant: scene, picture, bounces, all threads; one size changes in each sweep, sizes in turn within each run. Every
-size of a work-group is another kernel to PoCL: each is compiled beforehand, in a run that does not count.
-What a launch costs is the slope of the frame's time against its launches, in small wavefronts on one thread: work is the
-same, and no thread can go without any.
-Writes data/e6_frames.tsv and e6_stages.tsv (each run of each sweep); figures/e6_work_groups, e6_wavefronts, e6_launches.
+Held constant: scene, picture, bounces, all threads; one size changes in each sweep, sizes in turn within each run.
+Every size of a work-group is another kernel to PoCL: each is compiled beforehand, in a run that does not count.
+What a launch costs is the slope of the frame's time against its launches, in small wavefronts on one thread: work is
+the same, and no thread can go without any.
+Writes data/e6_frames.tsv and e6_stages.tsv (each run of each sweep); figures/e6_work_groups, e6_wavefronts,
+e6_launches.
 """
 import functools
 
 from lib import measure as repeat, stages
 from lib.context import ROOT, size
 
-SCENES = [("Cornell box", lambda c: ROOT / "scenes" / "cornell_box.glb"), ("frame", lambda c: c.generated("frame", "--frame")),
+SCENES = [("Cornell box", lambda c: ROOT / "scenes" / "cornell_box.glb"),
+          ("frame", lambda c: c.generated("frame", "--frame")),
           ("Sponza", lambda c: c.shared("bench/crytek-sponza/crytek-sponza.glb")),
           ("textured", lambda c: ROOT / "scenes" / "textured.glb")]
 HOW_MANY = 3  # scenes: the first of these that are there
-FRAMES = ["sweep", "scene", "size", "threads", "run", "render_s", "device_s", "launches", "queues_bytes", "rays", "chosen"]
+FRAMES = ["sweep", "scene", "size", "threads", "run", "render_s", "device_s", "launches", "queues_bytes", "rays",
+          "chosen"]
 STAGES = ["sweep", "scene", "size", "run", "stage", "launches", "seconds"]
 
 

@@ -1,4 +1,4 @@
-"""The machine's own ceilings, measured by ceilings.cpp: arithmetic and memory on N threads; whether processors share cores."""
+"""The machine's own ceilings, measured by ceilings.cpp: arithmetic and memory on N threads."""
 import os
 import pathlib
 import subprocess

@@ -149,7 +149,8 @@ def model(axis, measured, scene, i, amdahl, usl):
     axis.axvspan(1, p, color="#f2f2f2", zorder=0)
     axis.set_xlabel(f"threads (shaded: this machine's {p} processors)")
     axis.set_ylabel("speed-up over one thread")
-    axis.set_title(f"{scene}\nAmdahl σ = {fit.shown(*amdahl[1], 3)}\nUSL σ = {fit.shown(*usl[1], 3)}, κ = {fit.shown(*usl[2], 4)}",
+    axis.set_title(f"{scene}\nAmdahl σ = {fit.shown(*amdahl[1], 3)}\n"
+                   f"USL σ = {fit.shown(*usl[1], 3)}, κ = {fit.shown(*usl[2], 4)}",
                    fontsize=9.5, fontweight="normal")
     return labels
 

@@ -1,4 +1,4 @@
-"""Figures of E6 (e6_sizes.py): time of each stage by work-group and wavefront, memory of queues, cost of a launch, lanes."""
+"""Figures of E6 (e6_sizes.py): times by work-group and wavefront, memory of queues, cost of a launch, lanes."""
 import statistics
 
 import numpy
@@ -28,8 +28,8 @@ def median(rows, column, **chosen):
 
 
 def curves(frames, byStage, scene, name):
-    """{stage or "whole frame": ([sizes], [times of the default's time])}; stages that take a share worth drawing. The default
-    is a point too, at the size that it stands for."""
+    """{stage or "whole frame": ([sizes], [times of the default's time])}; stages that take a share worth drawing. The
+    default is a point too, at the size that it stands for."""
     key = dict(sweep=name, scene=scene)
     usual = median(frames, "chosen", **key, size="default")
     sizes = sorted({r["size"] for r in frames if r["sweep"] == name and r["size"] != "default"} | {usual})
@@ -40,7 +40,8 @@ def curves(frames, byStage, scene, name):
         return sizes, [1.0 if n == usual else time / default for n, time in zip(sizes, times)]
 
     frame = median(frames, "render_s", **key, size="default")
-    drawn = [s for s in stages.ORDER if (median(byStage, "seconds", **key, stage=s, size="default") or 0) >= SHARE * frame]
+    drawn = [s for s in stages.ORDER
+             if (median(byStage, "seconds", **key, stage=s, size="default") or 0) >= SHARE * frame]
     return {"whole frame": ratios(frames, "render_s"), **{s: ratios(byStage, "seconds", stage=s) for s in drawn}}
 
 
@@ -76,8 +77,8 @@ def timesOfDefault(axis, lines):
         width = 2.6 if stage == "whole frame" else 1.4
         style.draw(axis, i, sizes, ratios, linewidth=width)
         best = int(numpy.argmin(ratios))
-        axis.plot(sizes[best], ratios[best], marker="*", color=style.look(i)["color"], markersize=13, markeredgecolor="white",
-                  zorder=4)
+        axis.plot(sizes[best], ratios[best], marker="*", color=style.look(i)["color"], markersize=13,
+                  markeredgecolor="white", zorder=4)
         labels.add(sizes[-1], ratios[-1], f"{stage}: best {ratios[best]:.2f}", style.look(i)["color"])
     axis.axhline(1, color=style.GREY, linestyle=":", linewidth=1)
     axis.set_yscale("log")
@@ -120,10 +121,12 @@ def costOfLaunch(axis, frames, scenes):
         base = both[0].values[0]
         x = numpy.linspace(0, max(counts), 2)
         axis.plot(x, 1e3 * (both[0].curve(x) - base), color=style.look(i)["color"], linewidth=1)
-        style.draw(axis, i, counts, *([1e3 * (v - base) for v in values] for values in (wall, low, high)), linestyle="none")
+        style.draw(axis, i, counts, *([1e3 * (v - base) for v in values] for values in (wall, low, high)),
+                   linestyle="none")
         inside = max(both[1].values[1], 0)
-        labels.add(counts[-1], 1e3 * (wall[-1] - base), f"{scene}\n{fit.shown(1e6 * both[0][1][0], 1e6 * both[0][1][1], 0)} µs a launch\n"
-                   f"({1e6 * inside:.0f} within the kernel)", style.look(i)["color"])
+        slope = fit.shown(1e6 * both[0].values[1], 1e6 * both[0].half[1], 0)
+        labels.add(counts[-1], 1e3 * (wall[-1] - base), f"{scene}\n{slope} µs a launch\n({1e6 * inside:.0f} within the kernel)",
+                   style.look(i)["color"])
     axis.set_xlabel("launches of a frame (640×360, 1 thread)")
     axis.set_ylabel("frame, ms more than the fit without launches")
     labels.place(room=0.4, size=8)
@@ -134,7 +137,8 @@ def lanes(axis, frames, scenes):
     usual = {s: median(frames, "render_s", sweep="lanes", scene=s, size="default") for s in scenes}
     sizes = sorted({r["size"] for r in frames if r["sweep"] == "lanes" and r["size"] != "default"})
     rows = [f"{n} ray{'s' if n > 1 else ''}" for n in sizes]
-    values = {s: {row: median(frames, "render_s", sweep="lanes", scene=s, size=n) / usual[s] for row, n in zip(rows, sizes)}
+    values = {s: {row: median(frames, "render_s", sweep="lanes", scene=s, size=n) / usual[s]
+                  for row, n in zip(rows, sizes)}
               for s in scenes}
     dots.draw(axis, rows, values, looks)
     axis.axvline(1, color=style.GREY, linestyle=":", linewidth=1)

@@ -145,7 +145,8 @@ def rates(rows, folder):
 def dotsByStage(axis, rows, column, unit):
     names = [s for s in stages.ORDER if any(r["stage"] == s for r in rows)][::-1]
     for y, stage in enumerate(names):
-        by = repeat.grouped([r for r in rows if r["stage"] == stage], ["scene"], lambda r: r[column] / r["seconds"] / unit)
+        by = repeat.grouped([r for r in rows if r["stage"] == stage], ["scene"],
+                            lambda r: r[column] / r["seconds"] / unit)
         points = sorted((statistics.median(v), scene) for (scene,), v in by.items())
         axis.plot([p[0] for p in points], [y] * len(points), linestyle="none", marker="o", markersize=6,
                   markerfacecolor="white", markeredgecolor=style.BLUE, markeredgewidth=1.4)

@@ -176,8 +176,8 @@ def amdahl(threads, throughput):
 def uslShared(threads, processors, throughput):
     """usl for more threads than processors: X = X1 c / (1 + sigma (c-1) + kappa N (N-1)); values X1, sigma, kappa.
 
-    N threads run on c processors at a time (as many as the machine really gives them). Up to the number of processors it
-    is the law itself. Threads beyond it add no c, but pairs all the same, so they tell kappa from sigma even where two
+    N threads run on c processors at a time (as many as the machine really gives them). Up to the number of processors
+    it is the law itself. Threads beyond it add no c, but pairs all the same, so they tell kappa from sigma even where two
     processors alone leave three unknowns to two points.
     """
     n, c, x = (numpy.asarray(v, float) for v in (threads, processors, throughput))

@@ -17,8 +17,8 @@ def stageOf(kernel):
 
 
 def grouped(stages):
-    """{stage: {launches, seconds, items, bytes}} of a list as the statistics have it. Items are those of the kernels that
-    do the stage's work on each entry; the parts of the compaction walk the same entries, so the most counts."""
+    """{stage: {launches, seconds, items, bytes}} of a list as the statistics have it. Items are those of the kernels
+    that do the stage's work on each entry; the parts of the compaction walk the same entries, so the most counts."""
     sums = collections.OrderedDict()
     for kernel in stages:
         total = sums.setdefault(stageOf(kernel["name"]), {"launches": 0, "seconds": 0.0, "items": 0, "bytes": 0})
@@ -36,11 +36,12 @@ def deviceSeconds(stats):
 def launches(trace):
     """Kernel launches of a `--trace` file in their order: (kernel, bounce, items, seconds)."""
     events = [e for e in trace["traceEvents"] if e.get("cat") == "kernel"]
-    return [(e["name"], e["args"]["bounce"], e["args"]["items"], e["dur"] * 1e-6) for e in sorted(events, key=lambda e: e["ts"])]
+    events.sort(key=lambda e: e["ts"])
+    return [(e["name"], e["args"]["bounce"], e["args"]["items"], e["dur"] * 1e-6) for e in events]
 
 
 def byBounce(stats):
-    """{bounce: stages as grouped() has them}. Bounce 1 is what the eye sees; 0 is what belongs to none (raygen, film)."""
+    """{bounce: stages as grouped() has them}. Bounce 1 is what the eye sees; 0 is what belongs to none: raygen, film."""
     return {b["bounce"]: grouped(b["stages"]) for b in stats.get("bounces", [])}
 
 

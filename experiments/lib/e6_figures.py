@@ -125,8 +125,8 @@ def costOfLaunch(axis, frames, scenes):
                    linestyle="none")
         inside = max(both[1].values[1], 0)
         slope = fit.shown(1e6 * both[0].values[1], 1e6 * both[0].half[1], 0)
-        labels.add(counts[-1], 1e3 * (wall[-1] - base), f"{scene}\n{slope} µs a launch\n({1e6 * inside:.0f} within the kernel)",
-                   style.look(i)["color"])
+        labels.add(counts[-1], 1e3 * (wall[-1] - base), f"{scene}\n{slope} µs a launch\n"
+                   f"({1e6 * inside:.0f} within the kernel)", style.look(i)["color"])
     axis.set_xlabel("launches of a frame (640×360, 1 thread)")
     axis.set_ylabel("frame, ms more than the fit without launches")
     labels.place(room=0.4, size=8)

@@ -177,8 +177,8 @@ def uslShared(threads, processors, throughput):
     """usl for more threads than processors: X = X1 c / (1 + sigma (c-1) + kappa N (N-1)); values X1, sigma, kappa.
 
     N threads run on c processors at a time (as many as the machine really gives them). Up to the number of processors
-    it is the law itself. Threads beyond it add no c, but pairs all the same, so they tell kappa from sigma even where two
-    processors alone leave three unknowns to two points.
+    it is the law itself. Threads beyond it add no c, but pairs all the same, so they tell kappa from sigma even where
+    two processors alone leave three unknowns to two points.
     """
     n, c, x = (numpy.asarray(v, float) for v in (threads, processors, throughput))
     a = solve(numpy.stack([numpy.ones_like(n), c - 1, n * (n - 1)], axis=1), c / x)[0]

@@ -41,7 +41,7 @@ def launches(trace):
 
 
 def byBounce(stats):
-    """{bounce: stages as grouped() has them}. Bounce 1 is what the eye sees; 0 is what belongs to none: raygen, film."""
+    """{bounce: stages as grouped() has them}. Bounce 1: what the eye sees; 0: what belongs to none, raygen and film."""
     return {b["bounce"]: grouped(b["stages"]) for b in stats.get("bounces", [])}
 
 

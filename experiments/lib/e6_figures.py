@@ -84,7 +84,7 @@ def timesOfDefault(axis, lines):
     axis.set_yscale("log")
     axis.margins(y=0.15)
     low, high = axis.get_ylim()
-    ticks = [t for t in (0.2, 0.5, 0.7, 1, 1.5, 2, 3, 5, 10, 20, 50) if low <= t <= high]
+    ticks = [t for t in (0.2, 0.5, 0.7, 0.8, 0.9, 1, 1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50) if low <= t <= high]
     axis.set_yticks(ticks, [f"{t:g}" for t in ticks])
     axis.minorticks_off()
     axis.set_ylabel("time, of the default's\n(★: best size)")

@@ -175,6 +175,23 @@ def amdahl(threads, throughput):
     return gaussNewton(lambda v, at: v[0] * at / (1 + v[1] * (at - 1)), start, n, x)
 
 
+def uslShared(threads, processors, throughput):
+    """usl for more threads than processors: X = X1 c / (1 + sigma (c-1) + kappa N (N-1)); values X1, sigma, kappa.
+
+    N threads run on c processors at a time (as many as the machine really gives them). Up to the number of processors
+    it is the law itself. Threads beyond it add no c, but pairs all the same, so they tell kappa from sigma even where
+    two processors alone leave three unknowns to two points.
+    """
+    n, c, x = (numpy.asarray(v, float) for v in (threads, processors, throughput))
+    a = solve(numpy.stack([numpy.ones_like(n), c - 1, n * (n - 1)], axis=1), c / x)[0]
+    start = numpy.maximum([1 / max(a[0], 1e-300), a[1] / a[0], a[2] / a[0]], 0)
+
+    def model(v, at):
+        return v[0] * at[1] / (1 + v[1] * (at[1] - 1) + v[2] * at[0] * (at[0] - 1))
+
+    return gaussNewton(model, start, numpy.stack([n, c]), x)
+
+
 def shown(value, half, digits=2):
     """"1.02 ± 0.03", with as many decimals as the half-width deserves."""
     if not math.isfinite(half) or half <= 0:

@@ -1,0 +1,175 @@
+"""E5: how does a frame speed up with threads, from one to four for each processor, and what eats the rest?
+
+Held constant: scene, picture, bounces, wavefront, work-group; only --threads changes (PoCL's and TBB's alike), thread
+counts in turn within each run, every kernel compiled beforehand. Speed-up is held against what the machine itself gives
+to as many threads (lib/ceilings.cpp): a virtual processor may be half a core, and memory is shared.
+The tree is built by `whittle bench`, where nothing is compiled beside it.
+Writes data/e5_ceilings.tsv (rates), e5_frames.tsv (seconds of each run), e5_stages.tsv (by stage),
+e5_launches.tsv (each launch, medians, one thread against as many as processors), e5_build.tsv; figures/e5_speedup,
+e5_model, e5_losses.
+"""
+import functools
+import json
+import statistics
+
+from lib import ceilings, fit, measure as repeat, stages, table
+from lib.context import ROOT, size
+
+# (name in the tables and figures, how to come by it); Sponza is left out where it is not there
+SCENES = [("Cornell box", lambda c: ROOT / "scenes" / "cornell_box.glb"),
+          ("height field", lambda c: c.heightField(c.pick(128, 512))),
+          ("frame", lambda c: c.generated("frame", "--frame")),
+          ("Sponza", lambda c: c.shared("bench/crytek-sponza/crytek-sponza.glb"))]
+GROUPS_AT_LEAST = 32  # PoCL's threads take at least so many work-groups of a launch at a time (POCL_PTHREAD_MIN_WGS)
+
+
+def threadCounts(processors):
+    """1, 2, 3, 4, 6, 8, 12 … up to four for each processor."""
+    counts = {1, processors, 2 * processors, 4 * processors}
+    power = 1
+    while power <= 4 * processors:
+        counts |= {power, power * 3 // 2}
+        power *= 2
+    return sorted(n for n in counts if 1 <= n <= 4 * processors)
+
+
+def measure(context):
+    counts, runs = threadCounts(context.threads), context.pick(2, 7)
+    ceilings.record(context, "e5_ceilings", counts, runs)
+    measureFrames(context, counts, runs)
+    measureBuild(context, context.pick(counts[:2], counts), context.pick(1, 5))
+
+
+def scenes(context):
+    for name, find in context.pick(SCENES[:3], SCENES):
+        file = find(context)
+        if file:
+            yield name, file
+        else:
+            context.note(f"e5: {name} is not there and is left out")
+
+
+def traced(context, file, threads):
+    """Statistics of a frame with its launches."""
+    trace = context.folder / "e5_trace.json"
+    picture = context.pick(size(640, 360), size(1280, 720))
+    stats = context.render(file, *picture, "--threads", threads, "--trace", trace)
+    return stats, stages.launches(json.loads(trace.read_text()))
+
+
+def measureFrames(context, counts, runs):
+    frames = context.table("e5_frames", ["scene", "triangles", "width", "height", "threads", "run", "load_s",
+                                         "render_s", "device_s"])
+    byStage = context.table("e5_stages", ["scene", "threads", "run", "stage", "launches", "seconds"])
+    launches = context.table("e5_launches", ["scene", "stage", "bounce", "items", "groups", "one_thread_s",
+                                             "all_processors_s"])
+    progress = context.progress("e5", len(context.pick(SCENES[:3], SCENES)) * len(counts) * runs)
+    for name, file in scenes(context):
+        single = {1: [], context.threads: []}  # launches, run by run
+        variants = {n: functools.partial(traced, context, file, n) for n in counts}
+        for threads, run, (stats, records) in repeat.interleaved(variants, runs):
+            s, t = stats["settings"], stats["time"]
+            frames.row(scene=name, triangles=stats["scene"]["triangles"], width=s["width"], height=s["height"],
+                       threads=threads, run=run, load_s=t["load"], render_s=t["render"],
+                       device_s=stages.deviceSeconds(stats))
+            for stage, sums in stages.grouped(stats["stages"]).items():
+                byStage.row(scene=name, threads=threads, run=run, stage=stage, launches=sums["launches"],
+                            seconds=sums["seconds"])
+            if threads in single:
+                single[threads].append(records)
+            progress.step(f"{name}, {threads} threads")
+        writeLaunches(launches, name, stages.WorkGroups(ROOT, stats), single[1], single[context.threads])
+
+
+def writeLaunches(out, scene, groups, one, every):
+    """The same launches in every run, whatever the number of threads: medians over the runs."""
+    for i, (kernel, bounce, items, _) in enumerate(one[0]):
+        seconds = [statistics.median(run[i][3] for run in runs) for runs in (one, every)]
+        out.row(scene=scene, stage=stages.stageOf(kernel), bounce=bounce, items=items,
+                groups=groups.count(kernel, items), one_thread_s=seconds[0], all_processors_s=seconds[1])
+
+
+def measureBuild(context, counts, runs):
+    out = context.table("e5_build", ["scene", "triangles", "threads", "run", "build_s"])
+    for name, file in scenes(context):
+        if name == "Cornell box" or (context.quick and name != "frame"):
+            continue  # that box's tree takes no time
+        bench = functools.partial(context.bench, file, "--rays", 1000, "--runs", 1)
+        for threads, run, r in repeat.interleaved({n: functools.partial(bench, "--threads", n) for n in counts}, runs):
+            out.row(scene=name, triangles=r["triangles"], threads=threads, run=run, build_s=r["build"]["seconds"])
+
+
+# What the figures show of it.
+
+
+class Measured:
+    """The tables, and what the machine gives to n threads in multiples of one thread's rate."""
+
+    def __init__(self, folder):
+        data = folder / "data"
+        self.frames, self.byStage, self.launches, self.build, rates = (
+            table.read(data, f"e5_{name}") for name in ("frames", "stages", "launches", "build", "ceilings"))
+        self.cpu = table.readMachine(data, "e5_frames")["cpu"]
+        self.processors = self.cpu["threads"]
+        self.rates = {kind: ceilings.medians(rates, kind) for kind in ("integer", "fma", "triad")}
+        self.counts = sorted(self.rates["fma"])
+        self.scenes = list(dict.fromkeys(r["scene"] for r in self.frames))
+
+    def ceiling(self, kind):
+        return {n: rate / self.rates[kind][1] for n, rate in self.rates[kind].items()}
+
+    def running(self):
+        """c(n) for the models and the losses: arithmetic on whole vectors, as the kernels do, on as many threads as
+        there are processors at most; above that c stays."""
+        ceiling = self.ceiling("fma")
+        return {n: ceiling[min(n, self.processors)] for n in self.counts}
+
+    def picture(self):
+        return f"{self.frames[0]['width']}×{self.frames[0]['height']}"
+
+
+def speedUps(rows, column, **chosen):
+    """Threads, speed-ups of medians, and of the quartiles."""
+    threads, middle, low, high = repeat.curve(rows, "threads", column, **chosen)
+    return threads, *([middle[0] / v for v in values] for values in (middle, high, low))
+
+
+def fits(measured):
+    """{scene: (Amdahl's law on up to as many threads as processors, Gunther's on all)}"""
+    c = measured.running()
+    result = {}
+    for scene in measured.scenes:
+        rows = [r for r in measured.frames if r["scene"] == scene]
+        few = [r for r in rows if r["threads"] <= measured.processors]
+        result[scene] = (fit.amdahl([c[r["threads"]] for r in few], [1 / r["render_s"] for r in few]),
+                         fit.uslShared([r["threads"] for r in rows], [c[r["threads"]] for r in rows],
+                                       [1 / r["render_s"] for r in rows]))
+    return result
+
+
+PARTS = {"ideal": "one thread's frame, shared evenly", "machine": "the machine's own ceiling", "host": "host, serial",
+         "small": "launches of too few work-groups", "searches": "searches", "streams": "other kernels"}
+
+
+def losses(measured, scene):
+    """{part: seconds} of the frame on all processors: what it would take shared evenly, and what comes on top. The
+    parts sum up to the frame, but for medians of sums and sums of medians."""
+    limit = measured.running()[measured.processors]
+    times = repeat.grouped([r for r in measured.frames if r["scene"] == scene], ["threads"], "render_s")
+    one, every = (statistics.median(times[(n,)]) for n in (1, measured.processors))
+    launches = [r for r in measured.launches if r["scene"] == scene]
+    device = [sum(r[column] for r in launches) for column in ("one_thread_s", "all_processors_s")]
+    parts = dict.fromkeys(PARTS, 0.0)
+    parts["ideal"] = one / measured.processors
+    parts["machine"] = device[0] * (1 / limit - 1 / measured.processors)
+    parts["host"] = (every - device[1]) - (one - device[0]) / measured.processors
+    for r in launches:
+        small = r["groups"] < GROUPS_AT_LEAST * measured.processors
+        part = "small" if small else "searches" if r["stage"] in stages.SEARCHES else "streams"
+        parts[part] += r["all_processors_s"] - r["one_thread_s"] / limit
+    return parts
+
+
+def plot(folder):
+    from lib import e5_figures
+    e5_figures.draw(Measured(folder), folder)

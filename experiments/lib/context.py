@@ -1,0 +1,88 @@
+"""What an experiment is handed: how to run the program, where to write, and how much to do.
+
+An experiment is a file experiments/eN_name.py with measure(context), which writes context.table(...) row by row, and
+plot(folder), which reads FOLDER/data and writes FOLDER/figures. It raises Skipped where it lacks something.
+"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+from lib import machine
+from lib.progress import Progress
+from lib.table import Table
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+SCENES = ROOT / "scenes"
+SHARED = ROOT.parent / "shared" / "scenes"  # scenes that nobody here wrote; not everywhere
+
+
+class Skipped(Exception):
+    """The experiment cannot run here; the text says what it lacks."""
+
+
+class RunFailed(Exception):
+    """A run of the program ended with an error; the text is its own line."""
+
+
+class Context:
+    def __init__(self, whittle, out, quick, temporary):
+        self.whittle, self.out, self.quick = pathlib.Path(whittle), pathlib.Path(out), quick
+        self.folder = pathlib.Path(temporary)  # for generated scenes; removed at the end
+        self.threads = machine.threadsHere()
+        self.record = machine.record(self.whittle)
+        self.environment = dict(os.environ, POCL_CACHE_DIR=str(self.folder / "kernels"))
+
+    def pick(self, quick, full):
+        return quick if self.quick else full
+
+    def table(self, name, columns):
+        return Table(self.out / "data", name, columns, self.record)
+
+    def progress(self, name, weight):
+        return Progress(name, weight)
+
+    def json(self, command, *arguments):
+        """What a run of the program prints as JSON."""
+        line = [str(a) for a in (self.whittle, command, *arguments)]
+        done = subprocess.run(line, env=self.environment, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise RunFailed(done.stderr.strip().split("\n")[-1] or f"{command} ended with status {done.returncode}")
+        return json.loads(done.stdout)
+
+    def render(self, scene, *options):
+        """Statistics of one frame, in a process of its own; no picture is written unless options ask for one."""
+        return self.json("render", scene, "--quiet", "--stats", "-", *options)
+
+    def bench(self, scene, *options):
+        """Rays per second of the searches."""
+        return self.json("bench", scene, "--json", "--quiet", *options)
+
+    def generated(self, name, *options):
+        """A scene by make_scenes, once."""
+        file = self.folder / f"{name}.glb"
+        if not file.exists():
+            maker = self.whittle.parent / "make_scenes"
+            if not maker.exists():
+                raise Skipped(f"there is no make_scenes beside {self.whittle}: build that target")
+            done = subprocess.run([maker, *map(str, options), file], capture_output=True, text=True)
+            if done.returncode != 0:
+                raise RunFailed(done.stderr.strip())
+        return file
+
+    def heightField(self, squares):
+        """Hills of 2 squares² triangles; always the same hills and the same part of the picture."""
+        return self.generated(f"height_field_{squares}", "--heightfield", squares)
+
+    def shared(self, path):
+        """A scene of the folder beside the project, or None."""
+        file = SHARED / path
+        return file if file.exists() else None
+
+    def note(self, text):
+        print(text, file=sys.stderr, flush=True)
+
+
+def size(width, height):
+    return ["--width", width, "--height", height]

@@ -1,0 +1,116 @@
+"""One look for all figures: Okabe and Ito's colours, each with a line style and a marker of its own (so that they can
+be told apart in grey), labels at the ends of the lines instead of a legend, the same bytes from the same data.
+"""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as pyplot  # noqa: E402  after the backend is chosen
+
+WIDTH = 9.0  # inches; 900 pixels wide on a page
+BLACK, ORANGE, SKY, GREEN = "#000000", "#e69f00", "#56b4e9", "#009e73"
+YELLOW, BLUE, RED, PURPLE = "#f0e442", "#0072b2", "#d55e00", "#cc79a7"
+GREY = "#666666"
+
+# Colour, line style, marker: number i of a figure. No yellow, which is too light for a line.
+LOOKS = [(BLUE, "-", "o"), (RED, "--", "s"), (GREEN, "-.", "^"), (PURPLE, (0, (1, 1.2)), "D"),
+         (BLACK, (0, (6, 2)), "v"), (ORANGE, (0, (4, 1.5, 1, 1.5, 1, 1.5)), "P"), (SKY, (0, (3, 1)), "X")]
+
+pyplot.rcParams.update({
+    "font.size": 10, "axes.titlesize": 11, "axes.titlelocation": "left", "axes.titleweight": "bold",
+    "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.6, "axes.axisbelow": True, "lines.linewidth": 1.6, "lines.markersize": 4.5,
+    "figure.constrained_layout.use": True, "svg.hashsalt": "whittle", "svg.fonttype": "path", "savefig.dpi": 150})
+
+
+def figure(rows=1, columns=1, height=5.2, **options):
+    return pyplot.subplots(rows, columns, figsize=(WIDTH, height), **options)
+
+
+def look(i):
+    colour, line, marker = LOOKS[i % len(LOOKS)]
+    return {"color": colour, "linestyle": line, "marker": marker}
+
+
+def draw(axis, i, x, y, low=None, high=None, **options):
+    """Line number i with its spread (quartiles) as bars."""
+    style = {**look(i), **options}
+    axis.plot(x, y, **style)
+    if low is not None:
+        axis.vlines(x, low, high, color=style["color"], linewidth=3.5, alpha=0.3)
+
+
+class EndLabels:
+    """Texts beside the ends of lines, spread so that they do not overlap; a thin line joins each with its end."""
+
+    def __init__(self, axis):
+        self.axis, self.labels = axis, []
+
+    def add(self, x, y, text, colour=BLACK):
+        self.labels.append((x, y, text, colour))
+
+    def place(self, room=0.3, size=9, gap=1.3):
+        """room: the part of the axis's width kept free for the texts; gap: lines of text from one to the next."""
+        axis = self.axis
+        to, back = axis.transScale.transform, axis.transScale.inverted().transform
+        axis.autoscale_view()
+        (left, right), bottom = axis.get_xlim(), axis.get_ylim()[0]
+        (start, low), end = to((left, bottom)), to((right, bottom))[0]
+        axis.set_xlim(left, back((start + (end - start) / (1 - room), low))[0])
+        axis.figure.canvas.draw()
+        display = axis.transData.transform
+        ends = sorted(((*display((x, y)), text, colour) for x, y, text, colour in self.labels), key=lambda e: e[1])
+        step = size * gap * axis.figure.dpi / 72
+        heights = spread([e[1] for e in ends], [step * (e[2].count("\n") + 1) for e in ends])
+        column = display((right, bottom))[0] + 10
+        for (x, y, text, colour), height in zip(ends, heights):
+            axis.annotate(text, xy=axis.transData.inverted().transform((x, y)),
+                          xytext=axis.transAxes.inverted().transform((column, height)), textcoords="axes fraction",
+                          fontsize=size, color=colour, va="center", annotation_clip=False,
+                          arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.6, "alpha": 0.6, "shrinkB": 3})
+
+
+def spread(centres, heights):
+    """Sorted positions as near to the wanted ones as may be without overlap: neighbours that touch become one block
+    around the mean of what its members want."""
+    blocks = []  # members, height, start
+    for i, (centre, height) in enumerate(zip(centres, heights)):
+        blocks.append([[i], height, centre - height / 2])
+        while len(blocks) > 1 and blocks[-2][2] + blocks[-2][1] > blocks[-1][2]:
+            later = blocks.pop()
+            members, total = blocks[-1][0] + later[0], blocks[-1][1] + later[1]
+            start, offset = 0.0, 0.0
+            for m in members:
+                start += centres[m] - heights[m] / 2 - offset
+                offset += heights[m]
+            blocks[-1] = [members, total, start / len(members)]
+    placed = [0.0] * len(centres)
+    for members, _, start in blocks:
+        for m in members:
+            placed[m] = start + heights[m] / 2
+            start += heights[m]
+    return placed
+
+
+def save(figure_, folder, name):
+    """FOLDER/figures/NAME.svg and .png."""
+    figures = folder / "figures"
+    figures.mkdir(parents=True, exist_ok=True)
+    figure_.savefig(figures / f"{name}.svg", metadata={"Date": None})
+    figure_.savefig(figures / f"{name}.png")
+    pyplot.close(figure_)
+
+
+def bytesText(value):
+    """1536 -> "1.5 KiB"."""
+    for unit in ("B", "KiB", "MiB", "GiB"):
+        if value < 1024 or unit == "GiB":
+            return f"{value:.3g} {unit}"
+        value /= 1024
+
+
+def countText(value):
+    """33554432 -> "33.6 M"."""
+    for limit, unit in ((1e6, " M"), (1e3, " k")):
+        if value >= limit:
+            return f"{value / limit:.3g}{unit}"
+    return f"{value:g}"

@@ -148,6 +148,12 @@ def pairs(rows):
             if tool != "whittle"]
 
 
+def legendBelow(figure, entries, share, **options):
+    """A legend under all panels, in the lowest `share` of the figure."""
+    figure.get_layout_engine().set(rect=(0, share, 1, 1 - share))
+    figure.legend(*entries, loc="lower center", frameon=False, **options)
+
+
 def drawPairs(axis, found, which):
     """A line of the plot for each pair: both times, joined, and how many times as long the peer takes."""
     for i, (_, tool, ours, theirs) in enumerate(reversed(found)):
@@ -179,7 +185,7 @@ def plotFrames(folder):
         axes[0].plot([], [], linestyle="", marker=style.look(look)["marker"], color=style.look(look)["color"], label=label,
                      markersize=7, markerfacecolor=style.look(look)["color"] if look == 0 else "white")
     size = f"{row['width']}×{row['height']}, {row['bounces']} bounces, {row['threads']} threads"
-    axes[0].legend(loc="upper left", bbox_to_anchor=(-0.05, -0.16), ncols=3, frameon=False, title=size, alignment="left")
+    legendBelow(figure, axes[0].get_legend_handles_labels(), 0.09, ncols=3, title=size)
     style.save(figure, folder, "e12_frames")
 
 
@@ -197,12 +203,12 @@ def plotQueries(folder):
         axis.axvline(1, color=style.BLACK, linewidth=0.9)
         axis.set_xscale("log")
         axis.set_title({"nearest": "Nearest hit", "any": "Any hit"}[query])
-        axis.set_xlabel("rays per second, multiple of Embree's best mode")
+        axis.set_xlabel("rays per second, × Embree's best mode")
         axis.xaxis.set_major_locator(style.matplotlib.ticker.FixedLocator([0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6, 2, 2.5, 3]))
         axis.xaxis.set_major_formatter("{x:g}")
         axis.xaxis.set_minor_locator(style.matplotlib.ticker.NullLocator())
     axes[0].set_yticks(range(len(kinds)), [RAY_LABELS.get(k, k) for k in reversed(kinds)])
-    axes[0].legend(loc="upper left", bbox_to_anchor=(-0.05, -0.15), ncols=2, frameon=False, columnspacing=1)
+    legendBelow(figure, axes[0].get_legend_handles_labels(), 0.12, ncols=2)
     style.save(figure, folder, "e12_queries")
 
 

@@ -164,7 +164,7 @@ def drawPairs(axis, found, which):
             axis.hlines(i, times[0], times[2], color=style_["color"], linewidth=4, alpha=0.3)
             axis.plot(times[1], i, marker=style_["marker"], color=style_["color"], markersize=7, linestyle="",
                       markerfacecolor=style_["color"] if filled else "white")
-        axis.annotate(f"{b[1] / a[1]:.1f}×", (max(a[1], b[1]), i), xytext=(9, 0), textcoords="offset points", va="center")
+        axis.annotate(f"{b[1] / a[1]:.1f}×", (max(a[2], b[2]), i), xytext=(9, 0), textcoords="offset points", va="center")
     axis.set_xscale("log")
     axis.margins(x=0.2, y=0.08)
 
@@ -185,7 +185,7 @@ def plotFrames(folder):
         axes[0].plot([], [], linestyle="", marker=style.look(look)["marker"], color=style.look(look)["color"], label=label,
                      markersize=7, markerfacecolor=style.look(look)["color"] if look == 0 else "white")
     size = f"{row['width']}×{row['height']}, {row['bounces']} bounces, {row['threads']} threads"
-    legendBelow(figure, axes[0].get_legend_handles_labels(), 0.09, ncols=3, title=size)
+    legendBelow(figure, axes[0].get_legend_handles_labels(), 0.15, ncols=3, title=size)
     style.save(figure, folder, "e12_frames")
 
 

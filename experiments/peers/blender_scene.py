@@ -4,7 +4,7 @@ usage: blender --background --factory-startup --python THIS.py -- OUT.exr WIDTH 
 
 Set so that one sample is one of Whittle's rays for each pixel, with its shadow ray and its mirror rays: a pixel filter of a
 hundredth of a pixel, lights without size, no light but theirs on matte surfaces, no Russian roulette, no adaptive sampling.
-Cycles still sends one ray on from each matte surface; no object can be seen by such rays, so they end at the root of its tree.
+Cycles may still send one ray on from each matte surface; neither objects nor background can be seen by such rays.
 Of a glass surface's two branches, and of several lights, a sample takes one at random.
 """
 import json

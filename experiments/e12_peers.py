@@ -1,13 +1,14 @@
 """E12: how fast is it beside Embree, POV-Ray and Blender's Cycles on the same scene and rays?
 
-Whole frames: each scene with its first light alone (a sample of Cycles takes one light at random), one ray through the centre
-of each pixel, eight bounces, all threads, 1280x720, runs in turn. The pictures are compared, which shows that the work is the
-same: same triangles seen, same shadows, same mirror images. Queries: `whittle bench`, which times Embree on the same rays.
+Whole frames: each scene with its first light alone (a sample of Cycles takes one light at random), one ray through
+the centre of each pixel, eight bounces, all threads, 1280x720, runs in turn. The pictures are compared, which shows
+that the work is the same: same triangles seen, same shadows, same mirror images. Queries: `whittle bench`, which
+times Embree on the same rays.
 
 writes: data/e12_frames.tsv (a row for each run), data/e12_pictures.tsv, data/e12_queries.tsv;
         figures/e12_frames, e12_queries, e12_pictures_SCENE
-needs: povray and blender (Debian's packages) for whole frames, python3-openimageio for the pictures; what is not there is
-       left out
+needs: povray and blender (Debian's packages) for whole frames, python3-openimageio for the pictures; what is not
+       there is left out
 """
 import dataclasses
 import pathlib
@@ -180,7 +181,8 @@ def plotFrames(folder):
         axis.set_title(title)
         axis.set_xlabel("seconds")
     names = {"povray": "POV-Ray", "cycles": "Cycles, 1 sample"}
-    axes[0].set_yticks(range(len(found)), [f"{SCENE_LABELS[s]}\nagainst {names[t]}" for s, t, _, _ in reversed(found)], fontsize=8.5)
+    labels = [f"{SCENE_LABELS[s]}\nagainst {names[t]}" for s, t, _, _ in reversed(found)]
+    axes[0].set_yticks(range(len(found)), labels, fontsize=8.5)
     for look, label in ((0, "Whittle"), (1, "POV-Ray"), (2, "Cycles")):
         axes[0].plot([], [], linestyle="", marker=style.look(look)["marker"], color=style.look(look)["color"], label=label,
                      markersize=7, markerfacecolor=style.look(look)["color"] if look == 0 else "white")
@@ -204,7 +206,8 @@ def plotQueries(folder):
         axis.set_xscale("log")
         axis.set_title({"nearest": "Nearest hit", "any": "Any hit"}[query])
         axis.set_xlabel("rays per second, × Embree's best mode")
-        axis.xaxis.set_major_locator(style.matplotlib.ticker.FixedLocator([0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6, 2, 2.5, 3]))
+        ticks = [0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6, 2, 2.5, 3]
+        axis.xaxis.set_major_locator(style.matplotlib.ticker.FixedLocator(ticks))
         axis.xaxis.set_major_formatter("{x:g}")
         axis.xaxis.set_minor_locator(style.matplotlib.ticker.NullLocator())
     axes[0].set_yticks(range(len(kinds)), [RAY_LABELS.get(k, k) for k in reversed(kinds)])

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Writes one of our scenes for other renderers, so that they do the same work: same triangles, lights, camera and depth.
+"""Writes one of our scenes for other renderers, so that they do the same work: same triangles, lights, camera and
+depth.
 
 usage: experiments/export_scene.py SCENE.glb [--povray FILE.pov] [--blender FILE.py] [--bounces N]
        povray +IFILE.pov +WT2 -A +FE Declare=Bounces=8   (one ray for each pixel; see peers/povray.py for the units)

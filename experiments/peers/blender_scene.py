@@ -2,10 +2,10 @@
 
 usage: blender --background --factory-startup --python THIS.py -- OUT.exr WIDTH HEIGHT THREADS BOUNCES SAMPLES
 
-Set so that one sample is one of Whittle's rays for each pixel, with its shadow ray and its mirror rays: a pixel filter of a
-hundredth of a pixel, lights without size, no light but theirs on matte surfaces, no Russian roulette, no adaptive sampling.
-Cycles may still send one ray on from each matte surface; neither objects nor background can be seen by such rays.
-Of a glass surface's two branches, and of several lights, a sample takes one at random.
+Set so that one sample is one of Whittle's rays for each pixel, with its shadow ray and its mirror rays: a pixel
+filter of a hundredth of a pixel, lights without size, no light but theirs on matte surfaces, no Russian roulette, no
+adaptive sampling. Cycles may still send one ray on from each matte surface; neither objects nor background can be
+seen by such rays. Of a glass surface's two branches, and of several lights, a sample takes one at random.
 """
 import json
 import math

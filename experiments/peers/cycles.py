@@ -1,8 +1,8 @@
 """Writes a scene for Blender's Cycles: FILE.py, which Blender runs, and FILE.npz, the arrays that it reads.
 
-Why not Blender's own glTF importer: it changes lights to Blender's units by rules that moved from version to version, gives
-materials a Principled BSDF whose metal is not glTF's Schlick formula, and knows neither our background nor lights without
-shadows. The script sets each of these itself, from the same arrays that POV-Ray gets.
+Why not Blender's own glTF importer: it changes lights to Blender's units by rules that moved from version to
+version, gives materials a Principled BSDF whose metal is not glTF's Schlick formula, and knows neither our
+background nor lights without shadows. The script sets each of these itself, from the same arrays that POV-Ray gets.
 """
 import json
 import math

@@ -1,9 +1,9 @@
 """A binary glTF 2.0 scene as numpy arrays in world space: what the writers for other renderers need of it, and no more.
 
-Read: triangles with normals, node transforms, factors of materials (and of the KHR extensions that Whittle knows), punctual
-lights, perspective cameras, our background. Not read: textures, vertex colours, skins, morphs, animation; `ignored` names
-what a scene has of these, so that nobody takes a picture without them for the same scene.
-Units: metres, radiance in W/(m2 sr), intensity in W/sr, irradiance of directional lights in W/m2.
+Read: triangles with normals, node transforms, factors of materials (and of the KHR extensions that Whittle knows),
+punctual lights, perspective cameras, our background. Not read: textures, vertex colours, skins, morphs, animation;
+`ignored` names what a scene has of these, so that nobody takes a picture without them for the same scene. Units:
+metres, radiance in W/(m2 sr), intensity in W/sr, irradiance of directional lights in W/m2.
 """
 import dataclasses
 import json

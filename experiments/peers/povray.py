@@ -1,15 +1,17 @@
 """Writes a scene for POV-Ray 3.7 such that a render without anti-aliasing is Whittle's one ray for each pixel.
 
 How the units meet (POV-Ray's reference, "Light Source", "Finish", "Camera"):
-- Diffuse reflection is pigment x light colour x cosine, without the 1/pi of a reflectance; so light colours are divided by pi.
-- `fade_power 2 fade_distance f` dims by 2 / (1 + (d/f)^2) = 2 f^2 / d^2 x 1 / (1 + f^2/d^2). With f = 1e-4 m the last factor
-  is 1 to 1e-6 from a distance of 0.1 m on, so a colour of I / (2 pi f^2) gives I / (pi d^2).
+- Diffuse reflection is pigment x light colour x cosine, without the 1/pi of a reflectance; so light colours are
+  divided by pi.
+- `fade_power 2 fade_distance f` dims by 2 / (1 + (d/f)^2) = 2 f^2 / d^2 x 1 / (1 + f^2/d^2). With f = 1e-4 m the
+  last factor is 1 to 1e-6 from a distance of 0.1 m on, so a colour of I / (2 pi f^2) gives I / (pi d^2).
 - `reflection {c, 1 falloff 5}` is Schlick's c + (1 - c) (1 - cos)^5, what glTF asks of a smooth metal.
-- Axes are given as vectors, so POV-Ray's left-handed ones do not matter. `direction` has length 1, `right` and `up` span
-  the picture at that distance.
+- Axes are given as vectors, so POV-Ray's left-handed ones do not matter. `direction` has length 1, `right` and `up`
+  span the picture at that distance.
 - What stays different: shadow rays pass glass without its Fresnel loss; two to four pixels in ten thousand of the hills
   are black (not looked into); an emitter glows on both sides; a spot's edge is another curve.
-- `max_trace_level n`: eye rays are level 1, so that n is Whittle's bounces; `adc_bailout 0` follows every ray to that depth.
+- `max_trace_level n`: eye rays are level 1, so that n is Whittle's bounces; `adc_bailout 0` follows every ray to
+  that depth.
 """
 import math
 import pathlib

@@ -1,6 +1,7 @@
 """Runs each renderer on a scene, and tells the time that it says its rays took from the rest of its process.
 
-Every run gives {"render_s", "process_s", "rays"}; rays counts eye and impulse rays, and is empty where a renderer counts none.
+Every run gives {"render_s", "process_s", "rays"}; rays counts eye and impulse rays, and is empty where a renderer
+counts none.
 - Whittle: time.render of its statistics, from the first launch to the finished film.
 - POV-Ray: its "Trace Time".
 - Cycles: "Rendered N samples in ... seconds", the path tracing alone, without synchronising, its BVH or denoising.

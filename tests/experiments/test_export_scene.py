@@ -1,5 +1,6 @@
-"""What is written for POV-Ray and Blender is our scene: eye rays by each program's own camera formula, light that arrives,
-triangles where the node transforms put them. The scene is made here, each expected number from the glTF specification.
+"""What is written for POV-Ray and Blender is our scene: eye rays by each program's own camera formula, light that
+arrives, triangles where the node transforms put them. The scene is made here, each expected number from the glTF
+specification.
 
 usage: /usr/bin/python3 test_export_scene.py   (status 77 where numpy is missing: skipped)
 """

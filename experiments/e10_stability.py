@@ -35,7 +35,8 @@ array and tree, with the same bits.
 def rowsOf(report):
     """The rows in one of gtest's JSON reports, in the order of the tests."""
     tests = [t for suite in report["testsuites"] for t in suite["testsuite"]]
-    return [json.loads(t[key]) for t in tests for key in sorted(t) if key.startswith("row_")]
+    # gtest escapes each byte of UTF-8 as a character of its own.
+    return [json.loads(t[key].encode("latin-1").decode()) for t in tests for key in sorted(t) if key.startswith("row_")]
 
 
 def run(program, pattern, whole):

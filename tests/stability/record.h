@@ -65,7 +65,7 @@ inline void recordCount(const std::string& id, const std::string& construction,
           static_cast<double>(wrong), unit, 0});
 }
 
-/// The largest error of a series; NaN counts as infinite.
+/// The largest error of a series; NaN counts as infinite, and so does a series of nothing.
 class Worst {
  public:
   void absolute(double found, double expected) { add(std::abs(found - expected), found, expected); }
@@ -73,7 +73,7 @@ class Worst {
     const double off = found == expected ? 0.0 : std::abs(found - expected) / std::abs(expected);
     add(off, found, expected);
   }
-  double error() const { return error_; }
+  double error() const { return count_ > 0 ? error_ : INFINITY; }
   /// Where it was worst.
   std::string result() const {
     return fmt::format("{:.7g} for {:.7g} of {} values", found_, expected_, count_);

@@ -88,11 +88,11 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
   __global const DeviceLight* light = scene->lights + lightIndex;
   const Illumination arriving = illuminationAt(light, s->position);
   const Real cosine = dots(s->n, arriving.w_i);
-  lit = lit & (cosine > 0.0f) & (dots(s->n_g, arriving.w_i) > 0.0f) & somePositive(arriving.biradiance);
+  lit = lit & (cosine > 0.0f) & (dots(s->n_g, arriving.w_i) > 0.0f) & notDark(arriving.biradiance);
   if (!some(lit)) return (Natural)(0);
   const Real3 f = finiteScattering(constants, s, w_o, arriving.w_i);
   const Real3 contribution = scale3(cosine, mul3(scale3(s->alpha, f), arriving.biradiance));
-  lit = lit & somePositive(contribution);
+  lit = lit & notDark(contribution);
   const Real3 carried = mul3(contribution, attenuation);
 #if HAS(SHADOWS)
   if (light->castsShadows) {
@@ -140,6 +140,12 @@ INLINE Natural storeImpulse(const RenderConstants* constants, const Surfel* s, c
   storeReal3(impulses, capacity, base + IMPULSE_D, i, impulse->w_i);
   storeReal3(impulses, capacity, base + IMPULSE_THROUGHPUT, i, carried);
   return cut + (sent ? (Natural)(ENTRY_IMPULSE0 << k) : (Natural)(0));
+}
+
+/// Radiance, or NaN where an impulse's magnitude is: that is not traced, but the film has to count the sample.
+INLINE Real3 spoiltBy(Real3 radiance, Real3 magnitude) {
+  const Mask clean = (magnitude.x == magnitude.x) & (magnitude.y == magnitude.y) & (magnitude.z == magnitude.z);
+  return choose3(clean, radiance, magnitude);
 }
 
 /// Keeps one of two impulses with probability proportional to its luminance, divided by that probability.
@@ -260,6 +266,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
     if (bounce < lastBounce) {
       Impulse one, two;
       impulsesAt(&own, &s, w_o, &one, &two);
+      shaded = spoiltBy(shaded, add3(one.magnitude, two.magnitude));
 #if HAS(ONE_IMPULSE)
       chooseOne(&one, &two, randomNumbers(&names, 16u + bounce, own.seed));
 #endif

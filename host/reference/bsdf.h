@@ -18,13 +18,13 @@ struct Impulse {
   bool through;    ///< leaves on the side that the viewer is not on
 };
 
-/// At most two, each with a component > 0.
+/// At most two, none of them dark.
 struct Impulses {
   std::array<Impulse, 2> items;
   int count = 0;
 
   void add(const Impulse& impulse) {
-    if (anyPositive(impulse.magnitude)) items[count++] = impulse;
+    if (!isDark(impulse.magnitude)) items[count++] = impulse;
   }
   std::span<const Impulse> all() const { return {items.data(), static_cast<std::size_t>(count)}; }
 };

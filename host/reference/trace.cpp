@@ -28,10 +28,11 @@ Vec3 directLight(const World& world, const Sample& sample, const Surfel& surfel,
     const double cosine = glm::dot(surfel.n, w_i);
     if (!(cosine > 0 && glm::dot(surfel.facing, w_i) > 0)) continue;
     const Vec3 unshadowed = surfel.alpha * spreadingBsdf(surfel, w_i, w_o) * biradiance * cosine;
-    if (!anyPositive(unshadowed)) continue;
+    if (isDark(unshadowed)) continue;
     if (light.castsShadows && world.settings.shadows) {
       ++sample.rays.shadow;
-      sum += unshadowed * visibility(world, surfel, w_i, distance);
+      const Vec3 visible = visibility(world, surfel, w_i, distance);
+      if (!isDark(visible)) sum += unshadowed * visible;  // not NaN times 0
     } else {
       sum += unshadowed;
     }
@@ -49,7 +50,10 @@ Vec3 impulseLight(const World& world, const Sample& sample, const Surfel& surfel
   Vec3 sum(0);
   for (const Impulse& impulse : impulses.all()) {
     const Vec3 share = throughput * impulse.magnitude;
-    if (!anyPositive(share)) continue;
+    if (!anyPositive(share)) {
+      if (!isDark(share)) sum += share;  // NaN: not traced, but the sample counts as not finite
+      continue;
+    }
     if (glm::all(glm::lessThanEqual(share, Vec3(world.settings.cutoff)))) {
       sample.rays.cutOff += maxComponent(share);
       continue;

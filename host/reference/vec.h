@@ -19,6 +19,8 @@ inline bool isFinite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite
 inline double maxComponent(const Vec3& v) { return std::fmax(v.x, std::fmax(v.y, v.z)); }
 
 inline bool anyPositive(const Vec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
+/// Nothing that could be seen. NaN is not dark: it must reach the film, to be counted.
+inline bool isDark(const Vec3& v) { return v.x <= 0 && v.y <= 0 && v.z <= 0; }
 
 /// Rec. 709 luminance of linear RGB.
 inline double luminance(const Vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }

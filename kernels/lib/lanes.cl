@@ -68,6 +68,8 @@ INLINE Real largestOf(Real a, Real b, Real c) {
 INLINE Real clampUnit(Real x) { return x > 0.0f ? (x < 1.0f ? x : (Real)(1.0f)) : (Real)(0.0f); }
 INLINE Real luminances(Real3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 INLINE Mask somePositive(Real3 c) { return (c.x > 0.0f) | (c.y > 0.0f) | (c.z > 0.0f); }
+/// Light that must not be lost: also what is no number, so that the film can count it.
+INLINE Mask notDark(Real3 c) { return !((c.x <= 0.0f) & (c.y <= 0.0f) & (c.z <= 0.0f)); }
 INLINE Mask finite3(Real3 v) { return isfinite(v.x) & isfinite(v.y) & isfinite(v.z); }
 
 /// Unit vectors, as normalize3.

@@ -45,6 +45,7 @@ INLINE Illumination illuminationAt(__global const DeviceLight* light, Real3 p) {
   result.distance = d;
 #if HAS(SPOT_LIGHTS)
   if (light->kind == LIGHT_SPOT) factor *= spotFactor(light, result.w_i);
+  reached = reached & (factor > 0.0f);  // outside the cone even a light of NaN is dark
 #endif
   const Real3 arriving = scale3(factor, over3(same3(load3(light->intensity)), d2));
   result.biradiance = choose3(reached, arriving, result.biradiance);

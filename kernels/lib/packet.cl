@@ -97,7 +97,8 @@ INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint
   if (p->mixed) inside &= p->kz == kz;
   if (!anyOf16(inside)) return inside;
   const float16 det = u + v + w;
-  *t = fma(u, az, fma(v, bz, w * cz)) * p->shear[2] / det;
+  const float16 weight = p->shear[2] / det;
+  *t = fma(u * weight, az, fma(v * weight, bz, w * weight * cz));
   const float16 ab = fabs(az) > fabs(bz) ? fabs(az) : fabs(bz), corners = ab > fabs(cz) ? ab : fabs(cz);
   const int16 far = corners * fabs(p->shear[2]) > FAR_CORNERS * fabs(*t);
   if (anyOf16(inside & far)) *t = select(*t, clampToBox16(p, triangle, stride, *t), far);

@@ -111,7 +111,8 @@ INLINE uint intersectLeaf(const WideRay* r, const Leaf* leaf, float tMax, float8
   const uint lanes = laneBits(inside) & leafLanes(leaf);
   if (lanes == 0) return 0;
   const float8 det = u + v + w;
-  *t = fma(u, az, fma(v, bz, w * cz)) * r->sz / det;
+  const float8 weight = r->sz / det;
+  *t = fma(u * weight, az, fma(v * weight, bz, w * weight * cz));
   const float8 ab = fabs(az) > fabs(bz) ? fabs(az) : fabs(bz), corners = ab > fabs(cz) ? ab : fabs(cz);
   const int8 far = corners * fabs(r->sz) > FAR_CORNERS * fabs(*t);
   if (lanes & laneBits(far)) *t = select(*t, clampToBoxes(r, leaf, *t), far);

@@ -90,7 +90,9 @@ INLINE int intersectTriangle(const Ray* r, __global const DeviceTriangle* triang
   const int inside = (u >= 0.0f && v >= 0.0f && w >= 0.0f) || (u <= 0.0f && v <= 0.0f && w <= 0.0f);
   if (!inside) return 0;
   const float det = u + v + w;
-  float t = fma(u, az, fma(v, bz, w * cz)) * r->sz / det;
+  // Weights first: area times distance would overflow from coordinates of 1e13 m on.
+  const float weight = r->sz / det;
+  float t = fma(u * weight, az, fma(v * weight, bz, w * weight * cz));
   if (largestOfThree(fabs(az), fabs(bz), fabs(cz)) * fabs(r->sz) > FAR_CORNERS * fabs(t)) t = clampToBox(r, triangle, t);
   if (!(t > 0.0f && t <= tMax)) return 0;
   hit->t = t;

@@ -2,6 +2,7 @@
 // corners and along the axes. In every form of the search; they give the same bits.
 #include <gtest/gtest.h>
 
+#include "stability/record.h"
 #include "support/search_bench.h"
 
 namespace whittle {
@@ -21,14 +22,15 @@ std::size_t misses(const std::vector<TestHit>& hits) {
 
 /// The array forms get the first `arrayRays` alone: of large scenes they would take minutes.
 void expectNoMiss(SearchLab& lab, const test::TriangleMesh& mesh, const std::vector<TestRay>& all,
-                  std::size_t arrayRays) {
+                  std::size_t arrayRays, const char* id, const std::string& construction) {
   const Scene scene = test::sceneOf(mesh);
   for (const SearchForm& form : kSearchForms) {
     std::vector<TestRay> rays = all;
     if (form.search == Search::Array) rays.resize(std::min(rays.size(), arrayRays));
     SearchBench bench(lab, scene, form);
     const auto hits = bench.nearest(rays);
-    EXPECT_EQ(misses(hits), 0U) << form.name << " of " << rays.size() << " rays";
+    test::recordCount(id, fmt::format("{}, {}", construction, form.name), "every ray hits", misses(hits),
+                      rays.size(), "rays");
     const auto occluded = bench.occluded(rays, std::vector<float>(rays.size(), 1e30F));
     EXPECT_EQ(std::count(occluded.begin(), occluded.end(), false), 0) << form.name << ", any hit";
   }
@@ -44,7 +46,8 @@ TEST(Watertight, SphereFarFromTheOrigin) {
     test::Rng rng(11);
     std::vector<TestRay> rays;
     for (int i = 0; i < 100003; ++i) rays.push_back({centre + rng.inBox(0.3F * radius), rng.direction()});
-    expectNoMiss(lab, test::closedSphere(centre, radius, 200, 200), rays, 203);
+    expectNoMiss(lab, test::closedSphere(centre, radius, 200, 200), rays, 203, "2",
+                 fmt::format("from inside a sphere of {} m at (148376, 1234, -223423)", radius));
   }
 }
 
@@ -64,7 +67,9 @@ TEST(Watertight, EdgeAndVertexShots) {
       const glm::vec3 o = centre + rng.inBox(0.4F);
       rays.push_back({o, glm::normalize(a + along * (b - a) - o)});
     }
-    expectNoMiss(lab, mesh, rays, rays.size());
+    expectNoMiss(
+        lab, mesh, rays, rays.size(), "3",
+        fmt::format("aimed at edges and vertices of a ball at ({}, {}, {})", centre.x, centre.y, centre.z));
   }
 }
 
@@ -159,7 +164,9 @@ TEST(AxisAligned, SameTrianglesAsExactArithmetic) {
                                      rays[i].o.y, rays[i].o.z, rays[i].d.x, rays[i].d.y, rays[i].d.z,
                                      hits[i].primitive, expected[i]);
     }
-    EXPECT_EQ(wrong, 0U) << form.name << " of " << rays.size();
+    test::recordCount(
+        "4", fmt::format("rays along axes and planes of a grid of cubes, directions ±0, {}", form.name),
+        "the triangle of exact arithmetic", wrong, rays.size(), "rays");
   }
 }
 

@@ -20,7 +20,7 @@ from peers import cycles, gltf, pictures, povray, runs
 
 MANY_SAMPLES = 64  # until the noise of Cycles's choice between reflection and refraction is small
 SCENE_LABELS = {"frame": "the frame: hills, mirror balls", "cornell_box": "Cornell box, mirror and glass",
-                "height_field_256": "height field, 256 squares", "height_field_1024": "height field, 1024 squares"}
+                "height_field_256": "height field, 256 squares"}
 RAY_LABELS = {"eye": "eye", "shadow": "shadow", "mirror1": "mirror, first", "mirror2": "mirror, second",
               "refraction": "refraction", "cosine": "cosine", "uniform": "uniform"}
 
@@ -39,8 +39,6 @@ def scenes(context):
     """Name -> GLB."""
     found = {"frame": context.generated("frame", "--frame"), "cornell_box": SCENES / "cornell_box.glb",
              "height_field_256": context.heightField(256)}
-    if not context.quick:
-        found["height_field_1024"] = context.heightField(1024)
     return found
 
 
@@ -72,7 +70,7 @@ def variants(context, subject, job, absent):
 
 
 def measureFrames(context, frames, subject, job, absent):
-    repetitions = context.pick(1, 5)
+    repetitions = context.pick(1, 4)
     # Reading a text of a million triangles takes longer than anything else; what is timed is short all the same.
     for (tool, impulses), repetition, result in repeat.interleaved(variants(context, subject, job, absent), repetitions,
                                                                    longRun=float("inf")):
@@ -112,7 +110,7 @@ def canLook(context):
 def measureQueries(context, found, progress):
     rows = context.table("e12_queries", ["scene", "triangles", "rays", "query", "count", "kernel", "mraysPerSecond", "embreeMode",
                                          "embreeMraysPerSecond", "ratio"])
-    options = context.pick(["--rays", 65536, "--runs", 3], ["--runs", 7])
+    options = context.pick(["--rays", 65536, "--runs", 3], ["--runs", 5])
     for name, file in found.items():
         report = context.bench(file, "--threads", context.threads, *options)
         for row in report["rows"]:

@@ -45,7 +45,7 @@ def measureBench(context, scene, squares, used, out):
 
 def measure(context):
     out = context.table("e3_cache", COLUMNS)
-    todo = context.pick([4, 16, 64, 181, 512], [round(2**(k / 2)) for k in range(4, 23)])
+    todo = context.pick([4, 16, 64, 181, 512], [4, 8, 16, 32, 64, 91, 128, 181, 256, 362, 512, 724, 1024, 1448])
     progress = context.progress("e3", sum(20 + n**2 / 35000 for n in todo))
     for squares in todo:
         scene = context.heightField(squares)

@@ -34,10 +34,10 @@ def threadCounts(processors):
 
 
 def measure(context):
-    counts, runs = threadCounts(context.threads), context.pick(2, 7)
+    counts, runs = threadCounts(context.threads), context.pick(2, 5)
     ceilings.record(context, "e5_ceilings", counts, runs)
     measureFrames(context, counts, runs)
-    measureBuild(context, context.pick(counts[:2], counts), context.pick(1, 5))
+    measureBuild(context, context.pick(counts[:2], counts), context.pick(1, 3))
 
 
 def scenes(context):

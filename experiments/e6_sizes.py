@@ -26,9 +26,9 @@ def sweeps(context):
     """(name, sizes, options for a size). `default` is the program's own choice."""
     picture = context.pick(size(640, 360), [*size(1280, 720), "--rays-per-pixel", 4])
     small = size(640, 360)
-    groups = context.pick([1, 64], [2**i for i in range(10)])
-    queues = context.pick([2**12, 2**16], [2**i for i in range(10, 23)])
-    few = context.pick([1024, 2048, 8192], [1024, 1536, 2048, 3072, 4096, 6144, 8192])
+    groups = context.pick([1, 64], [1, 2, 4, 8, 16, 64, 256])
+    queues = context.pick([2**12, 2**16], [2**i for i in (10, 12, 14, 16, 17, 18, 19, 20, 22)])
+    few = context.pick([1024, 2048, 8192], [1024, 1536, 2048, 4096, 8192])
     return [("workGroup", ["default", *groups], lambda n: [*small, "--work-group", n]),
             ("wavefront", ["default", *queues], lambda n: [*picture, "--wavefront", n]),
             ("lanes", ["default", 1, 16], lambda n: [*small, "--lanes", n]),
@@ -44,7 +44,7 @@ def options(make, chosen):
 def measure(context):
     frames, byStage = context.table("e6_frames", FRAMES), context.table("e6_stages", STAGES)
     there = [(name, file) for name, find in SCENES if (file := find(context))][:context.pick(1, HOW_MANY)]
-    runs = context.pick(2, 5)
+    runs = context.pick(2, 4)
     every = sweeps(context)
     progress = context.progress("e6", len(there) * runs * sum(len(sizes) for _, sizes, _ in every))
     for scene, file in there:

@@ -45,7 +45,7 @@ def measureSweep(context, sweep, name, file, points, out):
     def one(_, width, height, samples, bounces):
         return lambda: context.render(file, *size(width, height), "--rays-per-pixel", samples, "--bounces", bounces)
     variants = {point: one(*point) for point in points}
-    for (x, width, height, samples, bounces), repetition, s in interleaved(variants, context.pick(2, 5)):
+    for (x, width, height, samples, bounces), repetition, s in interleaved(variants, context.pick(2, 3)):
         out.row(sweep=sweep, scene=name, x=x, width=width, height=height, raysPerPixel=samples, bounces=bounces,
                 repetition=repetition, render=s["time"]["render"], rays=s["rays"]["total"],
                 launches=sum(stage["launches"] for stage in s["stages"]))

@@ -35,7 +35,7 @@ def scenes(context):
 def measure(context):
     ceilings.record(context, "e8_ceilings", sorted({1, context.threads}), context.pick(2, 7))
     out = context.table("e8_stages", COLUMNS)
-    found, runs = scenes(context), context.pick(1, 7)
+    found, runs = scenes(context), context.pick(1, 5)
     progress = context.progress("e8", len(found) * runs)
     picture = context.pick(size(320, 180), size(1280, 720))
     variants = {name: functools.partial(context.render, file, *picture) for name, file in found.items()}

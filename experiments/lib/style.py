@@ -65,7 +65,7 @@ class EndLabels:
                                            "shrinkB": 3})
 
 
-def spread(centres, heights, low, high):
+def spread(centres, heights, low=float("-inf"), high=float("inf")):
     """Sorted positions between low and high, as near to the wanted ones as may be without overlap: neighbours that
     touch become one block around the mean of what its members want."""
 

@@ -1,6 +1,5 @@
-// The table of needs follows the conditions of kernels/shade.cl, occlude.cl and kernels/lib; its closure is
-// what
-// --keep-features keeps.
+// The table of needs follows the conditions of kernels/shade.cl, occlude.cl and kernels/lib; what
+// --keep-features keeps is closed under it.
 #include "render/feature_needs.h"
 
 #include <fmt/format.h>

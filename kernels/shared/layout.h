@@ -182,9 +182,10 @@ WHITTLE_STRUCT(Batch) {
 #define ENTRY_CUTOFF_SHIFT 3
 #define CUTOFF_UNITS 65536
 
-// Film planes for each pixel, in the pixel order: compensated sums of RGB, and of the mean of their squares for
-// the error estimate. One sample for each pixel needs the sums only. A batch that does not go over neighbouring
-// pixels goes over whole blocks of FILM_BLOCK of them (the picture's last may be shorter, and comes last).
+// Film planes for each pixel, in the pixel order: compensated sums of RGB, and of the mean of their squares
+// for the error estimate. One sample for each pixel needs the sums only. A batch that does not go over
+// neighbouring pixels goes over whole blocks of FILM_BLOCK of them (the picture's last may be shorter, and
+// comes last).
 #define FILM_BLOCK 64
 #define FILM_SUM 0
 #define FILM_COMPENSATION 3

@@ -127,9 +127,10 @@ TEST(SearchAgreement, GravelOnAPlain) {
   }
   EXPECT_GT(gravel, rays.size() / 10);
   EXPECT_LT(gravel, rays.size());
-  // Clamped, t is a difference, a reciprocal and a product. Where the plain lies across the ray's largest axis its
-  // corners are as near as the hit: then t is a sum of weights, with eight roundings on the way (two in the area, two in
-  // its quotient, one in a weight's product, two in the sum, one in the distance along the axis).
+  // Clamped, t is a difference, a reciprocal and a product. Where the plain lies across the ray's largest
+  // axis its corners are as near as the hit: then t is a sum of weights, with eight roundings on the way (two
+  // in the area, two in its quotient, one in a weight's product, two in the sum, one in the distance along
+  // the axis).
   EXPECT_LT(worst, 8 * 0x1p-24);
 }
 

@@ -50,7 +50,7 @@ def frames(axis, measured, looks):
     axis.set_ylabel("speed-up over one thread")
     axis.set_title(f"Frame, {measured.picture()}: at most {best:.2f} times", fontsize=10)
     threadsAxis(axis, measured)
-    labels.place(room=0.34, size=8.5)
+    labels.place(size=8.5)
 
 
 def efficiency(axis, measured, looks):
@@ -68,7 +68,7 @@ def efficiency(axis, measured, looks):
     axis.set_ylabel("speed-up as share of the machine's, %")
     axis.set_title(f"{min(at):.0f} to {max(at):.0f} % of the machine's on {measured.processors} threads", fontsize=10)
     threadsAxis(axis, measured)
-    labels.place(room=0.34, size=8.5)
+    labels.place(size=8.5)
 
 
 def byStage(axis, measured, looks):
@@ -111,7 +111,7 @@ def hostSide(axis, measured, looks):
     axis.set_ylabel("speed-up over one thread")
     axis.set_title("Before the frame: load, build the tree", fontsize=10)
     threadsAxis(axis, measured)
-    labels.place(room=0.42, size=8.5)
+    labels.place(size=8.5)
 
 
 def models(measured, looks, folder):
@@ -123,7 +123,7 @@ def models(measured, looks, folder):
         axis.set_visible(False)
     every = [model(axis, measured, scene, looks[scene], *both) for axis, (scene, both) in zip(axes.flat, fits.items())]
     for labels in every:  # last: they go where the lines are once the axes agree on their range
-        labels.place(room=0.3, size=8.5)
+        labels.place(size=8.5)
     style.save(figure, folder, "e5_model")
 
 

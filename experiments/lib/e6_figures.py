@@ -66,7 +66,7 @@ def sweep(frames, byStage, scenes, name, label, folder, file):
         axis.minorticks_off()
     axes[-1][0].set_xlabel(label)
     for labels in every:
-        labels.place(room=0.2, size=8.5)
+        labels.place(size=8.5)
     style.save(figure, folder, file)
 
 
@@ -129,7 +129,7 @@ def costOfLaunch(axis, frames, scenes):
                    f"({1e6 * inside:.0f} within the kernel)", style.look(i)["color"])
     axis.set_xlabel("launches of a frame (640×360, 1 thread)")
     axis.set_ylabel("frame, ms more than the fit without launches")
-    labels.place(room=0.4, size=8)
+    labels.place(size=8)
 
 
 def lanes(axis, frames, scenes):

@@ -61,8 +61,8 @@ class EndLabels:
         for (_, x, y, text, colour), height in zip(ends, heights):
             self.axis.annotate(text, xy=(x, y), xytext=(1.03, to((0, height))[1]), textcoords="axes fraction",
                                fontsize=size, color=colour, va="center", annotation_clip=False,
-                               arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.6, "alpha": 0.6,
-                                           "shrinkB": 3})
+                               arrowprops={"arrowstyle": "-", "relpos": (0, 0.5), "color": colour, "linewidth": 0.6,
+                                           "alpha": 0.6, "shrinkB": 3})
 
 
 def spread(centres, heights, low=float("-inf"), high=float("inf")):

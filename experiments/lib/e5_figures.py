@@ -34,6 +34,20 @@ def speedUp(measured, looks, folder):
     style.save(figure, folder, "e5_speedup")
 
 
+def drawScene(axis, labels, i, text, threads, *values):
+    """A line with its spread and its label; values: medians, first and third quartiles."""
+    style.draw(axis, i, threads, *values)
+    labels.add(threads[-1], values[0][-1], text, style.look(i)["color"])
+
+
+def finish(axis, measured, labels, yLabel, title):
+    axis.set_ylim(0)
+    axis.set_ylabel(yLabel)
+    axis.set_title(title, fontsize=10)
+    threadsAxis(axis, measured)
+    labels.place(size=8.5)
+
+
 def frames(axis, measured, looks):
     labels = style.EndLabels(axis)
     for kind, text in (("fma", "machine: arithmetic"), ("triad", "machine: memory")):
@@ -42,15 +56,11 @@ def frames(axis, measured, looks):
         labels.add(max(ceiling), ceiling[max(ceiling)], text, style.GREY)
     best = 0.0
     for scene, i in looks.items():
-        threads, speed, low, high = e5.speedUps(measured.frames, "render_s", scene=scene)
-        style.draw(axis, i, threads, speed, low, high)
-        labels.add(threads[-1], speed[-1], scene, style.look(i)["color"])
-        best = max(best, *speed)
-    axis.set_ylim(0)
-    axis.set_ylabel("speed-up over one thread")
-    axis.set_title(f"Frame, {measured.picture()}: at most {best:.2f} times", fontsize=10)
-    threadsAxis(axis, measured)
-    labels.place(size=8.5)
+        threads, *speeds = e5.speedUps(measured.frames, "render_s", scene=scene)
+        drawScene(axis, labels, i, scene, threads, *speeds)
+        best = max(best, *speeds[0])
+    finish(axis, measured, labels, "speed-up over one thread",
+           f"Frame, {measured.picture()}: at most {best:.2f} times")
 
 
 def efficiency(axis, measured, looks):
@@ -58,17 +68,13 @@ def efficiency(axis, measured, looks):
     labels = style.EndLabels(axis)
     at = []
     for scene, i in looks.items():
-        threads, speed, low, high = e5.speedUps(measured.frames, "render_s", scene=scene)
-        share = [[100 * v / running[n] for n, v in zip(threads, values)] for values in (speed, low, high)]
-        style.draw(axis, i, threads, *share)
-        labels.add(threads[-1], share[0][-1], scene, style.look(i)["color"])
+        threads, *speeds = e5.speedUps(measured.frames, "render_s", scene=scene)
+        share = [[100 * v / running[n] for n, v in zip(threads, values)] for values in speeds]
+        drawScene(axis, labels, i, scene, threads, *share)
         at.append(share[0][threads.index(measured.processors)])
     axis.axhline(100, color=style.GREY, linestyle=":", linewidth=1.2)
-    axis.set_ylim(0)
-    axis.set_ylabel("speed-up as share of the machine's, %")
-    axis.set_title(f"{min(at):.0f} to {max(at):.0f} % of the machine's on {measured.processors} threads", fontsize=10)
-    threadsAxis(axis, measured)
-    labels.place(size=8.5)
+    finish(axis, measured, labels, "speed-up as share of the machine's, %",
+           f"{min(at):.0f} to {max(at):.0f} % of the machine's on {measured.processors} threads")
 
 
 def byStage(axis, measured, looks):
@@ -100,18 +106,12 @@ def hostSide(axis, measured, looks):
     labels = style.EndLabels(axis)
     for scene, i in looks.items():
         if any(r["scene"] == scene for r in measured.build):
-            threads, speed, low, high = e5.speedUps(measured.build, "build_s", scene=scene)
-            style.draw(axis, i, threads, speed, low, high)
-            labels.add(threads[-1], speed[-1], f"tree, {scene}", style.look(i)["color"])
+            drawScene(axis, labels, i, f"tree, {scene}", *e5.speedUps(measured.build, "build_s", scene=scene))
     largest = max(measured.frames, key=lambda r: r["load_s"])["scene"]
     threads, speed, low, high = e5.speedUps(measured.frames, "load_s", scene=largest)
     axis.plot(threads, speed, color=style.GREY, marker=".")
     labels.add(threads[-1], speed[-1], f"load, {largest}", style.GREY)
-    axis.set_ylim(0)
-    axis.set_ylabel("speed-up over one thread")
-    axis.set_title("Before the frame: load, build the tree", fontsize=10)
-    threadsAxis(axis, measured)
-    labels.place(size=8.5)
+    finish(axis, measured, labels, "speed-up over one thread", "Before the frame: load, build the tree")
 
 
 def models(measured, looks, folder):
@@ -139,9 +139,7 @@ def model(axis, measured, scene, i, amdahl, usl):
         labels.add(n[-1], curve[-1], name, style.GREY)
     axis.plot(n, more, color=style.GREY, linestyle=":", linewidth=1)
     labels.add(n[-1], more[-1], "machine × n", style.GREY)
-    threads, speed, low, high = e5.speedUps(measured.frames, "render_s", scene=scene)
-    style.draw(axis, i, threads, speed, low, high)
-    labels.add(threads[-1], speed[-1], "measured", style.look(i)["color"])
+    drawScene(axis, labels, i, "measured", *e5.speedUps(measured.frames, "render_s", scene=scene))
     axis.set_yscale("log", base=2)
     axis.yaxis.set_major_formatter(lambda v, _: f"{v:g}")
     axis.set_xscale("log", base=2)

@@ -66,10 +66,7 @@ std::string bounceRows(const Stats& stats, const std::string& stage, double all)
       left -= s.seconds;
       continue;
     }
-    for (std::size_t k = i + 1; k < bounces.size(); ++k) {
-      const StageStats& more = bounces[k].second;
-      s.launches += more.launches, s.items += more.items, s.seconds += more.seconds, s.bytes += more.bytes;
-    }
+    for (std::size_t k = i + 1; k < bounces.size(); ++k) s.add(bounces[k].second);
     return out + row(fmt::format("  bounces {}–{}", number, bounces.back().first), s, all);
   }
   return out;

@@ -101,6 +101,7 @@ bool SamplingLoop::tracePass(const SamplePass& pass) {
 bool SamplingLoop::traceWith(const SamplePass& pass, const TracePass& launches) {
   const std::vector<std::uint64_t> cutOffBefore = wavefront_.tally().cutOff;
   const KeepGoing ask{[this](double samples, bool between) { return keepGoing(samples, between); }};
+  film_.reset();
   const std::uint32_t pixels = wavefront_.trace(launches, ask);
   const std::size_t blocks = (pixels + FILM_BLOCK - 1) / FILM_BLOCK;
   for (std::size_t b = 0; b < blocks; ++b) counts_.add(pass.blocks[b], pass.samples);
@@ -162,7 +163,7 @@ void SamplingLoop::look() {
   const bool estimates = counts_.least() >= 2;
   if (!estimates && !hooks_.reference) return;
   const double now = seconds_ > 0.0 ? seconds_ : elapsed();
-  const FilmSums sums = readFilm();
+  const FilmSums& sums = film();
   ErrorPoint point{now, counts_.mean(), 0.0, {}};
   if (estimates) {
     variances_ = blockVariances(sums, counts_);
@@ -172,14 +173,16 @@ void SamplingLoop::look() {
   error_.push_back(point);
 }
 
-FilmSums SamplingLoop::readFilm() {
-  FilmSums sums{settings_.width, settings_.height, buffers_.orderTable, {}};
-  sums.planes.resize(buffers_.film.bytes / sizeof(float));
-  compute_.read(buffers_.film, 0, buffers_.film.bytes, sums.planes.data());
-  return sums;
+const FilmSums& SamplingLoop::film() {
+  if (!film_) {
+    film_.emplace(FilmSums{settings_.width, settings_.height, buffers_.orderTable, {}});
+    film_->planes.resize(buffers_.film.bytes / sizeof(float));
+    compute_.read(buffers_.film, 0, buffers_.film.bytes, film_->planes.data());
+  }
+  return *film_;
 }
 
-FloatImage SamplingLoop::picture() { return resolveFilm(readFilm(), counts_); }
+FloatImage SamplingLoop::picture() { return resolveFilm(film(), counts_); }
 
 FloatImage SamplingLoop::samples() {
   return sampleImage({settings_.width, settings_.height, buffers_.orderTable, {}}, counts_);

@@ -55,7 +55,8 @@ class SamplingLoop {
   void reportProgress(double samples);
   double expectedSamples() const;
   void look();
-  FilmSums readFilm();
+  /// The film as it is, read once after each pass.
+  const FilmSums& film();
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   Compute& compute_;
@@ -69,6 +70,7 @@ class SamplingLoop {
   double passSeconds_ = 0.0;       ///< the last uniform pass
   std::uint32_t passSamples_ = 0;  ///< of each pixel, then
   bool saidLate_ = false;
+  std::optional<FilmSums> film_;
   std::vector<double> variances_;     ///< of blocks, at the last look
   std::vector<double> cutOffShares_;  ///< bound for passes of some blocks only
   std::vector<ErrorPoint> error_;

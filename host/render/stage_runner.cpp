@@ -104,11 +104,7 @@ std::vector<StageStats> StageRunner::stats() {
   collect();
   std::vector<StageStats> all;
   for (const auto& [bounce, stage] : stages_) {
-    StageStats& sum = entryOf(all, stage.name);
-    sum.launches += stage.launches;
-    sum.seconds += stage.seconds;
-    sum.items += stage.items;
-    sum.bytes += stage.bytes;
+    entryOf(all, stage.name).add(stage);
   }
   return all;
 }

@@ -18,6 +18,14 @@ struct StageStats {
   double seconds = 0.0;     ///< on the device, from its event counters
   std::uint64_t items = 0;  ///< rays, entries or pixels worked on, not padded work items
   std::uint64_t bytes = 0;  ///< of queues and film, as queue_traffic.h counts them
+
+  /// Adds the launches of another bounce of the same stage.
+  void add(const StageStats& more) {
+    launches += more.launches;
+    seconds += more.seconds;
+    items += more.items;
+    bytes += more.bytes;
+  }
 };
 
 /// The launches of one bounce.

@@ -8,6 +8,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 from lib import machine
 from lib.progress import Progress
@@ -43,10 +44,11 @@ class Context:
     def progress(self, name, weight):
         return Progress(name, weight)
 
-    def json(self, command, *arguments):
-        """What a run of the program prints as JSON."""
+    def json(self, command, *arguments, kernels=None):
+        """What a run of the program prints as JSON; kernels: a folder of compiled kernels, instead of the common one."""
         line = [str(a) for a in (self.whittle, command, *arguments)]
-        done = subprocess.run(line, env=self.environment, capture_output=True, text=True)
+        environment = dict(self.environment, POCL_CACHE_DIR=str(kernels)) if kernels else self.environment
+        done = subprocess.run(line, env=environment, capture_output=True, text=True)
         if done.returncode != 0:
             raise RunFailed(done.stderr.strip().split("\n")[-1] or f"{command} ended with status {done.returncode}")
         return json.loads(done.stdout)
@@ -54,6 +56,11 @@ class Context:
     def render(self, scene, *options):
         """Statistics of one frame, in a process of its own; no picture is written unless options ask for one."""
         return self.json("render", scene, "--quiet", "--stats", "-", *options)
+
+    def renderCold(self, scene, *options):
+        """As render, with no compiled kernels on disk."""
+        with tempfile.TemporaryDirectory(dir=self.folder) as empty:
+            return self.json("render", scene, "--quiet", "--stats", "-", *options, kernels=empty)
 
     def bench(self, scene, *options):
         """Rays per second of the searches."""

@@ -3,6 +3,7 @@
 Variants take turns (A B C A B C ...), so that a machine which slows down for a while slows all of them. Each is run
 once before, not counted: kernels are then compiled and on disk, and the scene's file is in memory.
 """
+import random
 import statistics
 import time
 
@@ -35,6 +36,13 @@ def quartiles(values):
     if len(values) == 1:
         return (values[0],) * 3
     return tuple(statistics.quantiles(values, n=4, method="inclusive"))
+
+
+def medianInterval(values, resamples=4000):
+    """The median, and where 95 % of the medians of as many values drawn from these lie (bootstrap; Efron 1979)."""
+    dice = random.Random(1)
+    medians = sorted(statistics.median(dice.choices(values, k=len(values))) for _ in range(resamples))
+    return statistics.median(values), medians[resamples // 40], medians[-resamples // 40]
 
 
 def grouped(rows, keys, value):

@@ -38,7 +38,7 @@ def title(rows, pictures):
 def drawScenes(folder, frames, compiled, pictures):
     scenes = list(dict.fromkeys(r["scene"] for r in frames))
     rows = sorted((sceneRow(s, frames, compiled) for s in scenes), key=lambda r: r["frame"])
-    figure, axes = style.figure(1, 3, 0.25 * len(rows) + 1.5, sharey=True)
+    figure, axes = style.figure(1, 3, max(3.4, 0.25 * len(rows) + 1.5), sharey=True)
     bars(axes[0], [r["frame"] for r in rows], "frame: times as fast\nas with everything")
     bars(axes[1], [r["compile"] for r in rows], "compiling, nothing on disk:\ntimes as fast")
     bars(axes[2], [r["memory"] for r in rows], "queues and scene:\nshare of everything's bytes")

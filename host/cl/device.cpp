@@ -48,6 +48,7 @@ DeviceInfo describe(const cl::Device& device, const std::string& platform) {
   info.globalMemory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   info.largestBuffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   info.maxWorkGroup = device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+  info.floatLanes = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
   info.reason = whyUnusable(device);
   info.usable = info.reason.empty();
   return info;

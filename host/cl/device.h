@@ -17,9 +17,14 @@ struct DeviceInfo {
   std::uint64_t globalMemory = 0;   ///< bytes
   std::uint64_t largestBuffer = 0;  ///< bytes, the single-allocation limit
   std::uint64_t maxWorkGroup = 0;   ///< work items
+  unsigned floatLanes = 1;          ///< floats of a native vector
   bool usable = false;
   std::string reason;  ///< why not, one line
   cl::Device device;
+
+  /// Whether rays are searched for in packets: a CPU whose compiler keeps vectors in vector registers.
+  /// (Mesa's rusticl, which spreads work items over them instead, takes minutes to compile the packets.)
+  bool suitsPackets() const { return kind == "cpu" && floatLanes >= 4; }
 };
 
 struct DeviceList {

@@ -26,6 +26,7 @@ void printJson(const DeviceList& list) {
                                {"globalMemory", d.globalMemory},
                                {"largestBuffer", d.largestBuffer},
                                {"maxWorkGroup", d.maxWorkGroup},
+                               {"floatLanes", d.floatLanes},
                                {"usable", d.usable},
                                {"reason", d.reason}});
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));

@@ -95,7 +95,7 @@ class Session {
     const auto deciding = Clock::now();
     use_ = useOf(scene_, settings_);
     endPhase("decide what is needed", deciding);
-    features_ = SceneFeatures::analyse(scene_, use_, settings_, {cpu});
+    features_ = SceneFeatures::analyse(scene_, use_, settings_, {compute_->device().suitsPackets()});
     compactChunk_ = cpu ? 1024 : 32;
     workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : defaultWorkGroup(features_);
     if (static_cast<std::uint64_t>(workGroup_) > compute_->device().maxWorkGroup)
@@ -135,7 +135,7 @@ class Session {
     Settings all = settings_;
     all.keepAllFeatures = true;
     const SceneUse whole = wholeScene(scene_);
-    const auto features = SceneFeatures::analyse(scene_, whole, all, {compute_->device().kind == "cpu"});
+    const auto features = SceneFeatures::analyse(scene_, whole, all, {compute_->device().suitsPackets()});
     std::vector<BufferStats> buffers;
     uploadScene(*compute_, scene_, whole, tree, features).report(buffers);
     RayQueues queues(*compute_, features, queues_->capacity(), compactChunk_);

@@ -73,7 +73,7 @@ class Needs {
     return scene.triangles.size() >= kArrayBelowTriangles;
   }
   bool packets() const {
-    return settings.lanes == Lanes::Sixteen || (settings.lanes == Lanes::Auto && traits.cpu);
+    return settings.lanes == Lanes::Sixteen || (settings.lanes == Lanes::Auto && traits.packets);
   }
 };
 

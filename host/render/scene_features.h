@@ -27,7 +27,7 @@ const std::vector<Feature>& allFeatures();
 
 /// What only the device decides.
 struct DeviceTraits {
-  bool cpu = true;  ///< packets of sixteen suit its vector units
+  bool packets = true;  ///< packets of sixteen suit its vector units
 };
 
 struct FeatureLine {

@@ -81,8 +81,15 @@ INLINE float16 smallest16(float16 a, float16 b, float16 c, float16 d) {
   return ab < cd ? ab : cd;
 }
 
+// Clang that writes code for a processor has operations of its own. On the way to SPIR-V it takes them too, and the
+// translation ends there, as that does not know them; Mesa hides __SPIR__, so it is processors that are named.
+#if defined(__clang__) && (defined(__x86_64__) || defined(__i386__) || defined(__aarch64__) || defined(__arm__) || \
+                           defined(__powerpc64__) || defined(__riscv))
+#define CLANG_FOR_PROCESSOR 1
+#endif
+
 // Reductions over lanes. Where the compiler has them of its own, they become few instructions.
-#if defined(__clang__) && defined(__has_builtin)
+#if defined(CLANG_FOR_PROCESSOR) && defined(__has_builtin)
 #if __has_builtin(__builtin_reduce_or) && __has_builtin(__builtin_reduce_min)
 #define HAS_REDUCTIONS 1
 #endif

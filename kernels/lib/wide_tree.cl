@@ -37,7 +37,7 @@ INLINE uint leafLanes(const Leaf* leaf) { return (1u << leaf->count) - 1u; }
 
 /// One bit for each lane of a comparison.
 INLINE uint laneBits(int8 mask) {
-#if defined(__AVX__) && defined(__clang__)
+#if defined(__AVX__) && defined(CLANG_FOR_PROCESSOR)
   return (uint)__builtin_ia32_movmskps256(as_float8(mask));
 #else
   const int8 bits = mask & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
@@ -48,7 +48,7 @@ INLINE uint laneBits(int8 mask) {
 }
 
 INLINE uint lowestBit(uint bits) {
-#ifdef __clang__
+#ifdef CLANG_FOR_PROCESSOR
   return (uint)__builtin_ctz(bits);
 #else
   return popcount((bits & (0u - bits)) - 1u);

@@ -30,8 +30,9 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
   if (impulseRays)
     impulses = planes("impulses", impulsesOfHit * IMPULSE_PLANES), entryRadiance = planes("entryRadiance", 3);
   if (shadowRays || impulseRays) {
-    flags = planes("flags", 1);
     const bool cutOff = features.has(Feature::CUTOFF);
+    flagBytes_ = cutOff ? sizeof(std::uint32_t) : sizeof(std::uint8_t);  // EntryFlags, lib/entry_flags.cl
+    flags = compute.allocate("flags", (std::size_t{capacity} + QUEUE_PADDING) * flagBytes_);
     totals =
         compute.allocate("totals", (cutOff ? 3 : 2) * (capacity / compactChunk + 1) * sizeof(std::uint32_t));
     sums = compute.allocate("sums", (cutOff ? 4 : 2) * sizeof(std::uint32_t));

@@ -171,7 +171,7 @@ WHITTLE_STRUCT(Batch) {
 #define IMPULSE_THROUGHPUT 6
 #define IMPULSE_PLANES 9
 
-// What shade found at an entry.
+// What shade found at an entry: these flags in a byte, or in 32 bits with CUTOFF.
 #define ENTRY_SHADOW 1u
 #define ENTRY_IMPULSE0 2u
 #define ENTRY_IMPULSE1 4u

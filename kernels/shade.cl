@@ -24,7 +24,11 @@ INLINE Arrivals loadArrivals(__global const float* rays, __global const float* h
   a.hit = (LANE_NUMBERS < count - i) & (a.triangle != NO_HIT);
   a.o = loadReal3(rays, capacity, RAY_O, first + i);
   a.d = loadReal3(rays, capacity, RAY_D, first + i);
+#if HAS(TEXTURES) || HAS(ABSORPTION) || HAS(AOVS)
   a.t = LOAD(hits + (size_t)HIT_T * capacity + i);
+#else
+  a.t = (Real)(0.0f);  // nothing asks, and the plane is not there
+#endif
   a.b1 = LOAD(hits + (size_t)HIT_B1 * capacity + i);
   a.b2 = LOAD(hits + (size_t)HIT_B2 * capacity + i);
   uint triangle[LANES];

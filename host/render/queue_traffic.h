@@ -15,21 +15,21 @@ using Bytes = std::uint64_t;
 inline constexpr Bytes kPlane = sizeof(float);  ///< of one entry in one plane; indices are as wide
 inline constexpr Bytes kRay = (RAY_THROUGHPUT - RAY_O) * kPlane;  ///< origin and direction
 inline constexpr Bytes kRgb = 3 * kPlane;
-// `flagBytes`: of what shade found at one entry, RayQueues::flagBytes.
+// `hitBytes` and `flagBytes`: of one entry, see RayQueues.
 
 /// Writes rays, and slots where impulses need them; reads the place of each pixel.
 constexpr Bytes raygen(Bytes rays, Bytes pixels, bool slots) {
   return rays * (kRay + (slots ? kPlane : 0)) + pixels * kPlane;
 }
-constexpr Bytes intersect(Bytes rays) { return rays * (kRay + HIT_PLANES * kPlane); }
+constexpr Bytes intersect(Bytes rays, Bytes hitBytes) { return rays * (kRay + hitBytes); }
 /// Reads rays, hits and, after the first bounce, throughputs; writes radiance and flags. Candidates come on
 /// top.
-constexpr Bytes shade(Bytes entries, bool throughputs, Bytes flagBytes) {
-  return entries * (kRay + HIT_PLANES * kPlane + kRgb + (throughputs ? kRgb : 0) + flagBytes);
+constexpr Bytes shade(Bytes entries, bool throughputs, Bytes hitBytes, Bytes flagBytes) {
+  return entries * (kRay + hitBytes + kRgb + (throughputs ? kRgb : 0) + flagBytes);
 }
 /// Reads rays, hits, radiance and flags; writes the last two.
-constexpr Bytes shadeLight(Bytes entries, Bytes flagBytes) {
-  return entries * (kRay + HIT_PLANES * kPlane + 2 * kRgb + 2 * flagBytes);
+constexpr Bytes shadeLight(Bytes entries, Bytes hitBytes, Bytes flagBytes) {
+  return entries * (kRay + hitBytes + 2 * kRgb + 2 * flagBytes);
 }
 constexpr Bytes shadowCandidates(Bytes rays) { return rays * SHADOW_PLANES * kPlane; }
 constexpr Bytes impulseCandidates(Bytes rays) { return rays * IMPULSE_PLANES * kPlane; }

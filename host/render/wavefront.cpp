@@ -124,13 +124,13 @@ void Wavefront::raygen(const Buffer& queue, std::uint32_t count) {
 
 void Wavefront::intersect(const Buffer& queue, Segment segment) {
   stages_.run("intersect", searchItems(segment.count()),
-              {segment.count(), traffic::intersect(segment.count())}, setup_.scene, segment.begin,
-              segment.count(), queues_.capacity(), queue, queues_.hits);
+              {segment.count(), traffic::intersect(segment.count(), queues_.hitBytes())}, setup_.scene,
+              segment.begin, segment.count(), queues_.capacity(), queue, queues_.hits, queues_.hitPlanes());
 }
 
 void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce) {
   const bool throughputs = bounce > 1 && bounce < setup_.bounces;
-  const auto bytes = traffic::shade(segment.count(), throughputs, queues_.flagBytes());
+  const auto bytes = traffic::shade(segment.count(), throughputs, queues_.hitBytes(), queues_.flagBytes());
   stages_.run("shade", laneItems(segment.count()), {segment.count(), bytes}, setup_.scene, setup_.constants,
               batch_, segment.begin, segment.count(), queues_.capacity(), bounce, setup_.bounces,
               setup_.camera.width, setup_.camera.width * setup_.camera.height, *pixelOrder_, queue,
@@ -139,10 +139,11 @@ void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce
 }
 
 void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t light) {
-  stages_.run("shade_light", laneItems(segment.count()),
-              {segment.count(), traffic::shadeLight(segment.count(), queues_.flagBytes())}, setup_.scene,
-              setup_.constants, segment.begin, segment.count(), queues_.capacity(), light, queue,
-              queues_.hits, *radiance_, queues_.shadows, queues_.flags);
+  stages_.run(
+      "shade_light", laneItems(segment.count()),
+      {segment.count(), traffic::shadeLight(segment.count(), queues_.hitBytes(), queues_.flagBytes())},
+      setup_.scene, setup_.constants, segment.begin, segment.count(), queues_.capacity(), light, queue,
+      queues_.hits, *radiance_, queues_.shadows, queues_.flags);
 }
 
 Wavefront::Candidates Wavefront::countCandidates(Segment segment) {

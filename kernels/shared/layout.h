@@ -149,8 +149,8 @@ WHITTLE_STRUCT(Batch) {
 #define RAY_PLANES 10
 #define EYE_RAY_PLANES 6
 
-// Hits: triangle in leaf order (uint bits, NO_HIT), barycentrics b1, b2, distance (m). Only TEXTURES, ABSORPTION
-// and AOVS ask how far away a hit is; without them the queue ends before that.
+// Hits: triangle in leaf order (uint bits, NO_HIT), barycentrics b1, b2, distance (m). Only TEXTURES,
+// ABSORPTION and AOVS ask how far away a hit is; without them the queue ends before that.
 #define HIT_TRIANGLE 0
 #define HIT_B1 1
 #define HIT_B2 2

@@ -3,11 +3,12 @@
 // compact_count: shadow rays and impulses in each chunk, and what a cut-off kept from being impulses. scan_chunks:
 // exclusive sums of chunk totals. compact_shadow writes the shadow queue (indices of candidates), compact_impulse the next
 // ray queue.
+#include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
 
 #define CHUNKS(count) (((count) + COMPACT_CHUNK - 1) / COMPACT_CHUNK)
 
-__kernel void compact_count(const uint count, __global const uint* flags,
+__kernel void compact_count(const uint count, __global const EntryFlags* flags,
                             __global uint* totals) {  // [2][chunks] shadow rays, impulses; with CUTOFF [3], units cut off
   const uint chunk = get_global_id(0);
   const uint begin = chunk * COMPACT_CHUNK;
@@ -53,7 +54,7 @@ __kernel void scan_chunks(const uint chunks, __global uint* totals, __global uin
   sums[kind] = running;
 }
 
-__kernel void compact_shadow(const uint count, __global const uint* flags,
+__kernel void compact_shadow(const uint count, __global const EntryFlags* flags,
                              __global const uint* offsets,   // [2][chunks] exclusive sums
                              __global uint* shadowQueue) {   // [capacity]
   const uint chunk = get_global_id(0);
@@ -65,7 +66,7 @@ __kernel void compact_shadow(const uint count, __global const uint* flags,
     if (flags[i] & ENTRY_SHADOW) shadowQueue[out++] = i;
 }
 
-__kernel void compact_impulse(const uint first, const uint count, const uint capacity, __global const uint* flags,
+__kernel void compact_impulse(const uint first, const uint count, const uint capacity, __global const EntryFlags* flags,
                               __global const uint* offsets, __global const float* impulses,
                               __global const float* rays,  // the queue the impulses came from: slots
                               __global float* next) {      // [RAY_PLANES][capacity]

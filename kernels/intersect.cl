@@ -1,10 +1,12 @@
 // intersect: the nearest hit of each ray of a segment of the ray queue. One ray for each work item, or sixteen
-// neighbouring ones (PACKETS). Writes the hit queue; entry i of the hits belongs to ray first + i.
+// neighbouring ones (PACKETS). Writes the hit queue, distances if it has room for them; entry i of the hits belongs to
+// ray first + i. (An argument, not a feature: what asks for distances leaves the searches as they are.)
 #include "lib/traverse_packet.cl"
 
 __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const uint capacity,
                         __global const float* rays,  // [RAY_PLANES][capacity]
-                        __global float* hits) {      // [HIT_PLANES][capacity]
+                        __global float* hits,        // [hitPlanes][capacity]
+                        const uint hitPlanes) {
   const SceneView scene = SCENE_VIEW;
   const size_t stride = capacity;
 #if HAS(PACKETS)
@@ -27,7 +29,7 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
   hit.v = hit.w = (float16)(0.0f);
   hit.det = (float16)(1.0f);
   nearestPacket(&scene, &p, &hit);
-  vstore16(hit.t, 0, hits + HIT_T * stride + i);
+  if (hitPlanes > HIT_T) vstore16(hit.t, 0, hits + HIT_T * stride + i);
   vstore16(as_float16(hit.triangle), 0, hits + HIT_TRIANGLE * stride + i);
   vstore16(hit.v / hit.det, 0, hits + HIT_B1 * stride + i);
   vstore16(hit.w / hit.det, 0, hits + HIT_B2 * stride + i);
@@ -36,7 +38,7 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
   if (i >= count) return;
   const Ray r = makeRay(loadPlanes3(rays, capacity, RAY_O, first + i), loadPlanes3(rays, capacity, RAY_D, first + i));
   const Hit hit = nearestSingle(&scene, &r);
-  hits[HIT_T * stride + i] = hit.t;
+  if (hitPlanes > HIT_T) hits[HIT_T * stride + i] = hit.t;
   hits[HIT_TRIANGLE * stride + i] = as_float(hit.triangle);
   hits[HIT_B1 * stride + i] = hit.b1;
   hits[HIT_B2 * stride + i] = hit.b2;

@@ -4,6 +4,7 @@
 // shade_light: the shadow candidate of a further light, one round for each light, so that memory does not grow with them.
 #include "lib/background.cl"
 #include "lib/bsdf.cl"
+#include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
 #include "lib/light.cl"
 #include "lib/sampler.cl"
@@ -23,7 +24,11 @@ INLINE Arrivals loadArrivals(__global const float* rays, __global const float* h
   a.hit = (LANE_NUMBERS < count - i) & (a.triangle != NO_HIT);
   a.o = loadReal3(rays, capacity, RAY_O, first + i);
   a.d = loadReal3(rays, capacity, RAY_D, first + i);
+#if HAS(TEXTURES) || HAS(ABSORPTION) || HAS(AOVS)
   a.t = LOAD(hits + (size_t)HIT_T * capacity + i);
+#else
+  a.t = (Real)(0.0f);  // nothing asks, and the plane is not there
+#endif
   a.b1 = LOAD(hits + (size_t)HIT_B1 * capacity + i);
   a.b2 = LOAD(hits + (size_t)HIT_B2 * capacity + i);
   uint triangle[LANES];
@@ -233,7 +238,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
                     __global float* entryRadiance,  // [3][capacity] of the segment's entries
                     __global float* shadows,        // [SHADOW_PLANES][capacity]
                     __global float* impulses,       // [IMPULSES_OF_HIT IMPULSE_PLANES][capacity]
-                    __global uint* flags,           // [capacity] ENTRY_… and what was cut off
+                    __global EntryFlags* flags,     // [capacity] ENTRY_… and what was cut off
                     __global float* aovs) {         // [AOV_PLANES][pixels]
   const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
@@ -287,13 +292,13 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
   if (bounce == 1 && aovs) storeAovs(&scene, &names, &a, &s, active, pixels, aovs);
 #endif
   storeReal3(entryRadiance, capacity, 0, i, radiance);
-  if (flags) STORE(found, flags + i);
+  if (flags) storeFlags(found, flags + i);
 }
 
 #if HAS(LIGHTS)
 __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const uint first, const uint count,
                           const uint capacity, const uint light, __global const float* rays, __global const float* hits,
-                          __global float* entryRadiance, __global float* shadows, __global uint* flags) {
+                          __global float* entryRadiance, __global float* shadows, __global EntryFlags* flags) {
   const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;
@@ -307,6 +312,6 @@ __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const u
     found = directLight(&scene, &own, &s, minus3(a.d), a.hit, light, attenuation, i, capacity, shadows, &radiance);
     storeReal3(entryRadiance, capacity, 0, i, radiance);
   }
-  if (flags) STORE((LOAD(flags + i) & ~ENTRY_SHADOW) | found, flags + i);
+  if (flags) storeFlags((loadFlags(flags + i) & ~ENTRY_SHADOW) | found, flags + i);
 }
 #endif

@@ -94,7 +94,7 @@ double QueryRunner::nearest() {
   const auto start = std::chrono::steady_clock::now();
   const auto each = static_cast<std::uint32_t>(kernel_.raysEach);
   stages_->run("intersect", (count_ + each - 1) / each, count_, scene_, std::uint32_t{0}, count_, capacity_,
-               rays_, hits_);
+               rays_, hits_, std::uint32_t{HIT_PLANES});
   clTry("waiting for the nearest hits", [&] { compute_.queue().finish(); });
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

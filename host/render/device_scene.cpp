@@ -222,6 +222,13 @@ std::vector<std::uint32_t> cornersOnDevice(const Scene& scene, const SceneUse& u
   return corners;
 }
 
+/// Two in a word, the first in its low half.
+std::vector<std::uint32_t> packedCorners(const std::vector<std::uint32_t>& corners) {
+  std::vector<std::uint32_t> words((corners.size() + 1) / 2);
+  for (std::size_t i = 0; i < corners.size(); ++i) words[i / 2] |= corners[i] << (i % 2 * 16);
+  return words;
+}
+
 std::string groupOf(const std::string& name) {
   if (name == "nodes" || name == "wideNodes" || name == "leaves") return "tree";
   if (name == "textures" || name == "texels" || name == "linearFromSrgb" || name == "background")
@@ -254,7 +261,13 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const SceneUse& us
   d.triangles = compute.upload("triangles", leafTriangles(scene, use, hittable, tree.order));
   const bool interpolates = features.has(Feature::VERTEX_NORMALS) || features.has(Feature::TEXTURES) ||
                             features.has(Feature::VERTEX_COLORS);
-  if (interpolates) d.corners = compute.upload("corners", cornersOnDevice(scene, use, tree.order));
+  if (interpolates) {
+    const auto corners = cornersOnDevice(scene, use, tree.order);
+    if (use.narrowCorners)
+      d.corners = compute.upload("corners", packedCorners(corners));
+    else
+      d.wideCorners = compute.upload("corners", corners);
+  }
   if (features.has(Feature::VERTEX_NORMALS))
     d.normals = uploadVertices(compute, "normals", scene.normals, use);
   if (features.has(Feature::NORMAL_TEXTURE))

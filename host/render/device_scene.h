@@ -14,14 +14,15 @@ namespace whittle {
 
 struct DeviceScene {
   // In the order of SCENE_PARAMS (kernels/lib/scene.cl).
-  Buffer nodes, triangles, corners, normals, tangents, uv0, uv1, colors, materials, textures, texels,
-      linearFromSrgb, lights, background, wideNodes, leaves;
+  Buffer nodes, triangles, corners, wideCorners, normals, tangents, uv0, uv1, colors, materials, textures,
+      texels, linearFromSrgb, lights, background, wideNodes, leaves;
   std::uint32_t triangleCount = 0;  ///< not counting the degenerate sentinel at the end
   std::uint32_t lightCount = 0;
 
   std::vector<const Buffer*> buffers() const {
-    return {&nodes,     &triangles, &corners, &normals,        &tangents, &uv0,        &uv1,       &colors,
-            &materials, &textures,  &texels,  &linearFromSrgb, &lights,   &background, &wideNodes, &leaves};
+    return {&nodes,      &triangles, &corners,   &wideCorners, &normals, &tangents,       &uv0,
+            &uv1,        &colors,    &materials, &textures,    &texels,  &linearFromSrgb, &lights,
+            &background, &wideNodes, &leaves};
   }
   void report(std::vector<BufferStats>& out) const;
 };

@@ -8,13 +8,22 @@
 #include "kernels/shared/layout.h"
 
 namespace whittle {
+namespace {
+
+/// As kernels/shade.cl does.
+bool asksForDistances(const SceneFeatures& features) {
+  return features.has(Feature::TEXTURES) || features.has(Feature::ABSORPTION) || features.has(Feature::AOVS);
+}
+
+}  // namespace
 
 RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity,
                      std::uint32_t compactChunk)
     : compute_(compute),
       capacity_(capacity),
       segmentLimit_(features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity),
-      rayPlanes_(features.has(Feature::IMPULSES) ? RAY_PLANES : EYE_RAY_PLANES) {
+      rayPlanes_(features.has(Feature::IMPULSES) ? RAY_PLANES : EYE_RAY_PLANES),
+      hitPlanes_(asksForDistances(features) ? HIT_PLANES : HIT_PLANES_WITHOUT_T) {
   // A packet reads up to fifteen entries past its segment (into the next plane, or the padding) and ignores
   // them. It writes whole packets from entry 0, which stay inside a plane because the capacity is a multiple.
   assert(capacity % PACKET_RAYS == 0);
@@ -23,15 +32,16 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
   };
   const bool shadowRays = features.has(Feature::SHADOWS);
   const bool impulseRays = features.has(Feature::IMPULSES);
-  hits = planes("hits", HIT_PLANES);
+  hits = planes("hits", hitPlanes_);
   sampleRadiance = planes("sampleRadiance", 3);
   if (shadowRays) shadows = planes("shadows", SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
   const std::size_t impulsesOfHit = features.has(Feature::BOTH_BRANCHES) ? 2 : 1;
   if (impulseRays)
     impulses = planes("impulses", impulsesOfHit * IMPULSE_PLANES), entryRadiance = planes("entryRadiance", 3);
   if (shadowRays || impulseRays) {
-    flags = planes("flags", 1);
     const bool cutOff = features.has(Feature::CUTOFF);
+    flagBytes_ = cutOff ? sizeof(std::uint32_t) : sizeof(std::uint8_t);  // EntryFlags, lib/entry_flags.cl
+    flags = compute.allocate("flags", (std::size_t{capacity} + QUEUE_PADDING) * flagBytes_);
     totals =
         compute.allocate("totals", (cutOff ? 3 : 2) * (capacity / compactChunk + 1) * sizeof(std::uint32_t));
     sums = compute.allocate("sums", (cutOff ? 4 : 2) * sizeof(std::uint32_t));

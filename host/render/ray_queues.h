@@ -26,6 +26,11 @@ class RayQueues {
   std::uint32_t capacity() const { return capacity_; }
   /// Entries a segment may have: half the capacity where a hit can send out two impulses.
   std::uint32_t segmentLimit() const { return segmentLimit_; }
+  /// Without distances where nothing asks for them.
+  std::uint32_t hitPlanes() const { return hitPlanes_; }
+  std::size_t hitBytes() const { return hitPlanes_ * sizeof(float); }
+  /// Of one entry's flags; 0 where nothing is found that has to be compacted.
+  std::size_t flagBytes() const { return flagBytes_; }
 
   /// A free ray queue; give it back with release. Queues are kept and reused.
   Buffer acquire();
@@ -49,6 +54,8 @@ class RayQueues {
   std::uint32_t capacity_;
   std::uint32_t segmentLimit_;
   std::uint32_t rayPlanes_;  ///< of a ray queue
+  std::uint32_t hitPlanes_;
+  std::size_t flagBytes_ = 0;
   std::vector<Buffer> free_;
   std::uint64_t queuesMade_ = 0;
 };

@@ -228,6 +228,7 @@ SceneUse useOf(const Scene& scene, const Settings& settings) {
   keepImages(scene.images.size(), use);
   keepLights(scene, use);
   keepVertices(scene, use);
+  use.narrowCorners = use.vertexCount <= kNarrowVertices;
   return use;
 }
 

@@ -11,6 +11,9 @@
 
 namespace whittle {
 
+/// Vertices whose indices fit 16 bits.
+inline constexpr std::size_t kNarrowVertices = 1 << 16;
+
 /// In a table: it does not go to the device.
 inline constexpr std::uint32_t kNotUsed = 0xffffffffU;
 
@@ -23,6 +26,7 @@ struct SceneUse {
   /// [vertices] index into the device's arrays of attributes, or kNotUsed; empty: all of them go as they are.
   std::vector<std::uint32_t> vertexOf;
   std::size_t vertexCount = 0;  ///< on the device
+  bool narrowCorners = false;   ///< triangles name their vertices by 16 bits each, not by 32
   bool sharesSlots = false;     ///< identical texture slots are stored once
   Trimmed trimmed;
 };

@@ -124,13 +124,13 @@ void Wavefront::raygen(const Buffer& queue, std::uint32_t count) {
 
 void Wavefront::intersect(const Buffer& queue, Segment segment) {
   stages_.run("intersect", searchItems(segment.count()),
-              {segment.count(), traffic::intersect(segment.count())}, setup_.scene, segment.begin,
-              segment.count(), queues_.capacity(), queue, queues_.hits);
+              {segment.count(), traffic::intersect(segment.count(), queues_.hitBytes())}, setup_.scene,
+              segment.begin, segment.count(), queues_.capacity(), queue, queues_.hits, queues_.hitPlanes());
 }
 
 void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce) {
   const bool throughputs = bounce > 1 && bounce < setup_.bounces;
-  const auto bytes = traffic::shade(segment.count(), throughputs, bool(queues_.flags));
+  const auto bytes = traffic::shade(segment.count(), throughputs, queues_.hitBytes(), queues_.flagBytes());
   stages_.run("shade", laneItems(segment.count()), {segment.count(), bytes}, setup_.scene, setup_.constants,
               batch_, segment.begin, segment.count(), queues_.capacity(), bounce, setup_.bounces,
               setup_.camera.width, setup_.camera.width * setup_.camera.height, *pixelOrder_, queue,
@@ -139,17 +139,19 @@ void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce
 }
 
 void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t light) {
-  stages_.run("shade_light", laneItems(segment.count()),
-              {segment.count(), traffic::shadeLight(segment.count())}, setup_.scene, setup_.constants,
-              segment.begin, segment.count(), queues_.capacity(), light, queue, queues_.hits, *radiance_,
-              queues_.shadows, queues_.flags);
+  stages_.run(
+      "shade_light", laneItems(segment.count()),
+      {segment.count(), traffic::shadeLight(segment.count(), queues_.hitBytes(), queues_.flagBytes())},
+      setup_.scene, setup_.constants, segment.begin, segment.count(), queues_.capacity(), light, queue,
+      queues_.hits, *radiance_, queues_.shadows, queues_.flags);
 }
 
 Wavefront::Candidates Wavefront::countCandidates(Segment segment) {
   if (!queues_.flags) return {};
   const std::uint32_t chunks = chunksOf(segment);
-  stages_.run("compact_count", chunks, {segment.count(), traffic::compactCount(segment.count())},
-              segment.count(), queues_.flags, queues_.totals);
+  stages_.run("compact_count", chunks,
+              {segment.count(), traffic::compactCount(segment.count(), queues_.flagBytes())}, segment.count(),
+              queues_.flags, queues_.totals);
   const std::uint32_t kinds = setup_.features.has(Feature::CUTOFF) ? 3 : 2;
   stages_.run("scan_chunks", kinds, {chunks, traffic::scanChunks(chunks, kinds)}, chunks, queues_.totals,
               queues_.sums);
@@ -162,8 +164,8 @@ Wavefront::Candidates Wavefront::countCandidates(Segment segment) {
 std::uint32_t Wavefront::compactShadow(Segment segment, std::uint32_t found) {
   if (found == 0) return 0;
   stages_.run("compact_shadow", chunksOf(segment),
-              {segment.count(), traffic::compactShadow(segment.count(), found)}, segment.count(),
-              queues_.flags, queues_.totals, queues_.shadowQueue);
+              {segment.count(), traffic::compactShadow(segment.count(), found, queues_.flagBytes())},
+              segment.count(), queues_.flags, queues_.totals, queues_.shadowQueue);
   tally_.shadow += found;
   return found;
 }
@@ -180,9 +182,9 @@ std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, st
   assert(found <= queues_.capacity());
   next = queues_.acquire();
   stages_.run("compact_impulse", chunksOf(segment),
-              {segment.count(), traffic::compactImpulse(segment.count(), found)}, segment.begin,
-              segment.count(), queues_.capacity(), queues_.flags, queues_.totals, queues_.impulses, queue,
-              next);
+              {segment.count(), traffic::compactImpulse(segment.count(), found, queues_.flagBytes())},
+              segment.begin, segment.count(), queues_.capacity(), queues_.flags, queues_.totals,
+              queues_.impulses, queue, next);
   tally_.impulse += found;
   tally_.produced += found;
   return found;

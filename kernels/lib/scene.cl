@@ -5,7 +5,8 @@
 typedef struct {
   __global const Node* nodes;                 // [nodes] the tree, root first
   __global const DeviceTriangle* triangles;   // [triangles] leaf order
-  __global const uint* corners;               // [3 triangles] vertex indices, leaf order
+  __global const uint* corners;               // [3 triangles / 2 + 1] vertex indices, leaf order, two in a word
+  __global const uint* wideCorners;           // [3 triangles] where those take more than 16 bits; one of the two is null
   __global const float* normals;              // [3 vertices] unit, or 0: use the geometric normal
   __global const float* tangents;             // [4 vertices]
   __global const float* uv0;                  // [2 vertices]
@@ -24,7 +25,7 @@ typedef struct {
 
 #define SCENE_PARAMS                                                                                         \
   __global const Node *nodes, __global const DeviceTriangle *triangles, __global const uint *corners,       \
-      __global const float *normals, __global const float *tangents, __global const float *uv0,             \
+      __global const uint *wideCorners, __global const float *normals, __global const float *tangents, __global const float *uv0,             \
       __global const float *uv1, __global const float *colors, __global const DeviceMaterial *materials,    \
       __global const DeviceTexture *textures, __global const uint *texels,                                  \
       __global const float *linearFromSrgb, __global const DeviceLight *lights,                             \
@@ -32,5 +33,5 @@ typedef struct {
       const uint triangleCount
 
 #define SCENE_VIEW                                                                                           \
-  {nodes, triangles, corners, normals, tangents, uv0, uv1, colors, materials, textures, texels,              \
+  {nodes, triangles, corners, wideCorners, normals, tangents, uv0, uv1, colors, materials, textures, texels,              \
    linearFromSrgb, lights, backgroundMap, wideNodes, leaves, triangleCount}

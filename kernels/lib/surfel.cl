@@ -48,10 +48,11 @@ INLINE Uv uvAt(const SceneView* scene, const uint* corner, const Barycentrics* b
 
 INLINE void loadCorners(const SceneView* scene, uint triangleIndex, uint* corner) {
 #if HAS(VERTEX_NORMALS) || HAS(VERTEX_COLORS) || HAS(TEXTURES)
-  __global const uint* c = scene->corners + (size_t)triangleIndex * 3;
-  corner[0] = c[0];
-  corner[1] = c[1];
-  corner[2] = c[2];
+  const size_t first = (size_t)triangleIndex * 3;
+  for (uint k = 0; k < 3; ++k) {
+    const size_t at = first + k;
+    corner[k] = scene->corners ? scene->corners[at >> 1] >> (16 * (uint)(at & 1)) & 0xffffu : scene->wideCorners[at];
+  }
 #else
   corner[0] = corner[1] = corner[2] = 0;  // nothing is interpolated, and the buffer is not there
 #endif

@@ -120,6 +120,22 @@ INLINE Texels textureAt(const SceneView* scene, const Places* at, Natural slots,
 }
 #endif
 
+#if HAS(VERTEX_NORMALS) || HAS(VERTEX_COLORS) || HAS(TEXTURES)
+/// Vertices of the triangles' corners. Of narrow ones two words hold three, from their first half on or their second.
+INLINE void cornersOf(const SceneView* scene, Natural triangleIndex, Natural* corner) {
+  const Natural first = triangleIndex * 3u;
+  if (scene->corners) {
+    const Natural one = gatherWords(scene->corners, first >> 1), two = gatherWords(scene->corners + 1, first >> 1);
+    const Mask halfway = (first & 1u) != 0;
+    corner[0] = halfway ? one >> 16 : one & 0xffffu;
+    corner[1] = halfway ? two & 0xffffu : one >> 16;
+    corner[2] = halfway ? two >> 16 : two & 0xffffu;
+    return;
+  }
+  for (uint k = 0; k < 3; ++k) corner[k] = gatherWords(scene->wideCorners + k, first);
+}
+#endif
+
 /// Lanes that hit nothing must name a triangle that is there.
 INLINE Places placesOf(const SceneView* scene, Natural triangleIndex, Real3 o, Real3 d, Real t, Real b1, Real b2) {
   Places at;
@@ -134,7 +150,7 @@ INLINE Places placesOf(const SceneView* scene, Natural triangleIndex, Real3 o, R
   at.b1 = b1;
   at.b2 = b2;
 #if HAS(VERTEX_NORMALS) || HAS(VERTEX_COLORS) || HAS(TEXTURES)
-  for (uint k = 0; k < 3; ++k) at.corner[k] = AS_NATURAL(gather((__global const float*)scene->corners + k, triangleIndex * 3u));
+  cornersOf(scene, triangleIndex, at.corner);
 #else
   for (uint k = 0; k < 3; ++k) at.corner[k] = (Natural)(0);  // nothing is interpolated, and the buffer is not there
 #endif

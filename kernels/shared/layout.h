@@ -149,12 +149,14 @@ WHITTLE_STRUCT(Batch) {
 #define RAY_PLANES 10
 #define EYE_RAY_PLANES 6
 
-// Hits: distance (m), triangle in leaf order (uint bits, NO_HIT), barycentrics b1, b2.
-#define HIT_T 0
-#define HIT_TRIANGLE 1
-#define HIT_B1 2
-#define HIT_B2 3
+// Hits: triangle in leaf order (uint bits, NO_HIT), barycentrics b1, b2, distance (m). Only TEXTURES,
+// ABSORPTION and AOVS ask how far away a hit is; without them the queue ends before that.
+#define HIT_TRIANGLE 0
+#define HIT_B1 1
+#define HIT_B2 2
+#define HIT_T 3
 #define HIT_PLANES 4
+#define HIT_PLANES_WITHOUT_T 3
 #define NO_HIT 0xffffffffu
 
 // Shadow candidates, one for each ray entry and light round: bumped origin, direction, length, contribution.
@@ -171,7 +173,7 @@ WHITTLE_STRUCT(Batch) {
 #define IMPULSE_THROUGHPUT 6
 #define IMPULSE_PLANES 9
 
-// What shade found at an entry.
+// What shade found at an entry: these flags in a byte, or in 32 bits with CUTOFF.
 #define ENTRY_SHADOW 1u
 #define ENTRY_IMPULSE0 2u
 #define ENTRY_IMPULSE1 4u

@@ -1,9 +1,10 @@
 // compact.cl and find_long_runs against serial twins on the host: which entries, in which order, for chunks
-// that divide the count, that do not, and that are longer than it.
+// that divide the count, that do not, and that are longer than it; flags in bytes and in words.
 #include <gtest/gtest.h>
 
 #include "kernels/shared/features.h"
 #include "kernels/shared/layout.h"
+#include "render/scene_features.h"
 #include "support/kernel_bench.h"
 #include "support/random_scenes.h"
 
@@ -31,15 +32,17 @@ std::vector<std::uint32_t> makeFlags(Pattern pattern, std::uint32_t count) {
 /// The compaction of one chunk length, launched as the wavefront launches it.
 class Compaction {
  public:
-  explicit Compaction(std::uint32_t chunk)
-      : bench({"compact.cl"}, "", test::kAllFeatures, static_cast<int>(chunk)), chunk_(chunk) {
+  explicit Compaction(std::uint32_t chunk, std::uint64_t features = test::kAllFeatures)
+      : bench({"compact.cl"}, "", features, static_cast<int>(chunk)),
+        chunk_(chunk),
+        flagsAreWords_(SceneFeatures::ofBits(features).has(Feature::CUTOFF)) {
     totals_ = bench.compute.allocate("totals", 3 * (kCapacity / chunk + 1) * sizeof(std::uint32_t));
     sums_ = bench.compute.allocate("sums", 4 * sizeof(std::uint32_t));
   }
 
   /// Indices of the entries with a shadow ray; the whole buffer, so that writes beyond the end show.
   std::vector<std::uint32_t> shadow(const std::vector<std::uint32_t>& flags, std::uint32_t count) {
-    const Buffer f = bench.compute.upload("flags", flags);
+    const Buffer f = upload(flags);
     const Buffer queue =
         bench.compute.upload("shadowQueue", std::vector<std::uint32_t>(kCapacity, kUntouched));
     scan(f, count, 0);
@@ -51,7 +54,7 @@ class Compaction {
   std::vector<std::uint32_t> impulse(const std::vector<std::uint32_t>& flags, std::uint32_t first,
                                      std::uint32_t count, const std::vector<std::uint32_t>& impulses,
                                      const std::vector<std::uint32_t>& rays) {
-    const Buffer f = bench.compute.upload("flags", flags);
+    const Buffer f = upload(flags);
     const Buffer from = bench.compute.upload("impulses", impulses),
                  queue = bench.compute.upload("rays", rays);
     const Buffer next =
@@ -64,7 +67,7 @@ class Compaction {
 
   /// What stands above the flags, summed over the entries.
   std::uint64_t cutOff(const std::vector<std::uint32_t>& flags, std::uint32_t count) {
-    const Buffer f = bench.compute.upload("flags", flags);
+    const Buffer f = upload(flags);
     bench.stages.run("compact_count", chunks(count), count, count, f, totals_);
     bench.stages.run("scan_chunks", 3, chunks(count), chunks(count), totals_, sums_);
     const auto sums = bench.read<std::uint32_t>(sums_, 4);
@@ -75,6 +78,10 @@ class Compaction {
   test::KernelBench bench;
 
  private:
+  Buffer upload(const std::vector<std::uint32_t>& flags) {
+    if (flagsAreWords_) return bench.compute.upload("flags", flags);
+    return bench.compute.upload("flags", std::vector<std::uint8_t>(flags.begin(), flags.end()));
+  }
   std::uint32_t chunks(std::uint32_t count) const { return (count + chunk_ - 1) / chunk_; }
   /// kind: 0 shadow rays, 1 impulses.
   void scan(const Buffer& flags, std::uint32_t count, std::size_t kind) {
@@ -84,6 +91,7 @@ class Compaction {
   }
 
   std::uint32_t chunk_;
+  bool flagsAreWords_;
   Buffer totals_, sums_;
 };
 
@@ -129,18 +137,30 @@ void checkImpulse(Compaction& compaction, Pattern pattern, std::uint32_t count) 
   EXPECT_EQ(next, expected);
 }
 
+/// Every pattern in counts around the length of a chunk.
+void checkChunk(Compaction& compaction, std::uint32_t chunk) {
+  for (const std::uint32_t count : {0U, 1U, 333U, chunk, chunk + 1, 2 * chunk + 1, kCapacity}) {
+    for (const Pattern pattern : {Pattern::None, Pattern::All, Pattern::Random, Pattern::OnlyLast}) {
+      SCOPED_TRACE(fmt::format("chunk {}, {} entries, pattern {}", chunk, count, static_cast<int>(pattern)));
+      checkShadow(compaction, pattern, count);
+      checkImpulse(compaction, pattern, count);
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+}
+
 TEST(Compact, KeepsWhatIsWantedInOrder) {
   for (const std::uint32_t chunk : {1U, 7U, 32U, 1024U}) {
     Compaction compaction(chunk);
-    for (const std::uint32_t count : {0U, 1U, 333U, chunk, chunk + 1, 2 * chunk + 1, kCapacity}) {
-      for (const Pattern pattern : {Pattern::None, Pattern::All, Pattern::Random, Pattern::OnlyLast}) {
-        SCOPED_TRACE(
-            fmt::format("chunk {}, {} entries, pattern {}", chunk, count, static_cast<int>(pattern)));
-        checkShadow(compaction, pattern, count);
-        checkImpulse(compaction, pattern, count);
-        if (testing::Test::HasFailure()) return;
-      }
-    }
+    checkChunk(compaction, chunk);
+  }
+}
+
+TEST(Compact, KeepsTheSameWithFlagsInBytes) {
+  const std::uint64_t cutoff = std::uint64_t{1} << static_cast<int>(Feature::CUTOFF);
+  for (const std::uint32_t chunk : {7U, 1024U}) {
+    Compaction compaction(chunk, test::kAllFeatures & ~cutoff);
+    checkChunk(compaction, chunk);
   }
 }
 

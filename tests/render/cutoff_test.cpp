@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "agreement.h"
+#include "kernels/shared/layout.h"
 #include "scene/input_error.h"
 #include "single_rays.h"
 
@@ -75,6 +76,29 @@ TEST(Cutoff, OfNothingCompilesNothingAndChangesNoBit) {
   Settings kept = cutSettings(0);
   kept.keepAllFeatures = true;
   EXPECT_FALSE(uses(renderOnDevice(scene, kept).stats, "cut-off of weak impulses"));
+}
+
+/// What shade finds at an entry fits a byte, and takes a word where a cut-off counts above it.
+TEST(Cutoff, WidensTheFlagsAndNothingElse) {
+  const auto flagBytes = [](const Stats& stats) {
+    const auto flags = std::find_if(stats.buffers.begin(), stats.buffers.end(),
+                                    [](const BufferStats& b) { return b.name == "flags"; });
+    return flags == stats.buffers.end() ? 0 : flags->bytes;
+  };
+  const Scene scene = ownScene("cornell_box");  // several lights: shade_light changes flags that are there
+  for (const Lanes lanes : {Lanes::Auto, Lanes::One}) {
+    Settings settings = cutSettings(0, 8);
+    settings.lanes = lanes;
+    const RenderResult byte = renderOnDevice(scene, settings);
+    settings.cutoff = 1e-36F;  // far below every throughput
+    const RenderResult word = renderOnDevice(scene, settings);
+    EXPECT_EQ(differingPixels(byte.radiance, word.radiance), 0U);
+    EXPECT_EQ(byte.stats.rays.shadow, word.stats.rays.shadow);
+    EXPECT_EQ(byte.stats.rays.impulse, word.stats.rays.impulse);
+    const auto entries = static_cast<std::uint64_t>(byte.stats.settings.wavefront) + QUEUE_PADDING;
+    EXPECT_EQ(flagBytes(byte.stats), entries);
+    EXPECT_EQ(flagBytes(word.stats), 4 * entries);
+  }
 }
 
 TEST(Cutoff, IsNotCompiledWhereNothingSendsOutImpulses) {

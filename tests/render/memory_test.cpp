@@ -16,11 +16,11 @@ std::uint64_t queueBytes(const Stats& stats) {
 }
 
 /// A ray queue for each bounce, and the work space of one segment: planes of `capacity` entries, each padded,
-/// four bytes.
+/// four bytes; of flags, one.
 std::uint64_t documentedBound(std::uint64_t capacity, std::uint64_t bounces) {
-  const std::uint64_t workPlanes = HIT_PLANES + 3 + 3 + SHADOW_PLANES + 1 + 2 * IMPULSE_PLANES + 1;
+  const std::uint64_t workPlanes = HIT_PLANES + 3 + 3 + SHADOW_PLANES + 1 + 2 * IMPULSE_PLANES;
   const std::uint64_t totals = capacity + 3;
-  return 4 * ((bounces * RAY_PLANES + workPlanes) * (capacity + QUEUE_PADDING) + totals);
+  return (4 * (bounces * RAY_PLANES + workPlanes) + 1) * (capacity + QUEUE_PADDING) + 4 * totals;
 }
 
 TEST(BoundedMemory, NestedGlassSixteenDeep) {

@@ -7,23 +7,35 @@ namespace whittle::test {
 namespace {
 
 TEST(QueueTraffic, OfAMatteSceneIsWhatItsKernelsTouch) {
-  // No impulses: one bounce. Eye rays 6 floats and no slot, hits 4, radiance 3, flags 1; a place for each
-  // pixel.
+  // No impulses: one bounce. Eye rays 6 floats and no slot, hits 3 without their distances, radiance 3, flags
+  // a byte; a place for each pixel.
   Settings settings = smallSettings(1);
   settings.raysPerPixel = 2;
   const Stats stats = renderOnDevice(ownScene("shadow"), settings).stats;
   const std::uint64_t rays = stats.rays.primary, pixels = rays / 2, shadow = stats.rays.shadow;
   ASSERT_GT(shadow, 0U);
   EXPECT_EQ(stageOf(stats, "raygen").bytes, rays * 24 + pixels * 4);
-  EXPECT_EQ(stageOf(stats, "intersect").bytes, rays * (24 + 16));
+  EXPECT_EQ(stageOf(stats, "intersect").bytes, rays * (24 + 12));
   // Each light's candidates are 10 floats, written once by shade or shade_light.
   const std::uint64_t lights = ownScene("shadow").lights.size();
   EXPECT_EQ(stageOf(stats, "shade").bytes + stageOf(stats, "shade_light").bytes,
-            rays * (24 + 16 + 12 + 4) + (lights - 1) * rays * (24 + 16 + 24 + 8) + shadow * 40);
+            rays * (24 + 12 + 12 + 1) + (lights - 1) * rays * (24 + 12 + 24 + 2) + shadow * 40);
   EXPECT_EQ(stageOf(stats, "occlude").bytes, shadow * (4 + 40 + 24));
-  EXPECT_EQ(stageOf(stats, "compact_shadow").bytes, lights * rays * 4 + shadow * 4);
+  EXPECT_EQ(stageOf(stats, "compact_shadow").bytes, lights * rays + shadow * 4);
+  EXPECT_EQ(stageOf(stats, "compact_count").bytes, lights * rays);
   // The first look at the film writes its 8 planes and reads the samples.
   EXPECT_EQ(stageOf(stats, "film").bytes, rays * 12 + pixels * 8 * 4);
+}
+
+TEST(QueueTraffic, CountsTheWiderFlagsOfACutoff) {
+  Settings settings = smallSettings(2);
+  const auto countBytes = [&] {
+    return stageOf(renderOnDevice(ownScene("mirror"), settings).stats, "compact_count").bytes;
+  };
+  const std::uint64_t narrow = countBytes();
+  settings.cutoff = 1e-36F;  // far below every throughput: the same entries
+  EXPECT_GT(narrow, 0U);
+  EXPECT_EQ(countBytes(), 4 * narrow);
 }
 
 }  // namespace

@@ -164,6 +164,23 @@ TEST(SceneUseVertices, OnlyUnusedOnesMakeATable) {
   EXPECT_TRUE(used(scene).vertexOf.empty()) << "positions go with their triangles";
 }
 
+TEST(SceneUseVertices, ThoseInUseDecideHowWideTheirIndicesAre) {
+  Scene scene = squares({lambert(glm::vec3(1))});
+  scene.positions.resize(65537);
+  scene.normals.assign(scene.positions.size(), glm::vec3(0, 1, 0));
+  for (std::uint32_t v = 4; v < 65536; v += 3)
+    scene.triangles.push_back({v, v + 1, std::min(v + 2, 65535U), 0});
+  EXPECT_EQ(used(scene).vertexCount, 65536U);
+  EXPECT_TRUE(used(scene).narrowCorners) << "one is not used";
+  EXPECT_FALSE(wholeScene(scene).narrowCorners);
+  scene.triangles[0].v0 = 65536;
+  scene.triangles[1].v0 = 65536;
+  EXPECT_TRUE(used(scene).narrowCorners) << "now it is, and vertex 0 is not";
+  scene.triangles[1].v0 = 0;
+  EXPECT_EQ(used(scene).vertexCount, 65537U);
+  EXPECT_FALSE(used(scene).narrowCorners);
+}
+
 /// Why the only light of a floor of [-1, 1]² at height 0 is left out; "" where it stays.
 std::string darkBecause(const Light& light, const Material& floor = lambert(glm::vec3(1))) {
   Scene scene = squares({floor});

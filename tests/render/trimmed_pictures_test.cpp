@@ -187,6 +187,55 @@ TEST(TrimmedPictures, MasksNearTheirCutoff) {
   EXPECT_EQ(stats.trimmed.needlessMasks, 1U) << "the third: the others fall short";
 }
 
+/// The room with colours whose alpha decides what is there, so that searches read vertices too.
+Scene maskedRoom() {
+  Scene scene = room();
+  for (std::size_t i = 0; i < scene.positions.size(); ++i)
+    scene.colors.emplace_back(1, 0.9F, 0.8F, 0.3F + 0.3F * static_cast<float>(i % 3));
+  for (Material& m : scene.materials) m.alphaMode = AlphaMode::Mask;
+  return scene;
+}
+
+/// `scene` with vertices of triangles behind the camera before its own, `count` of them in all. Black, and
+/// with other normals.
+Scene withVertices(Scene scene, std::size_t count) {
+  const auto hidden = static_cast<std::uint32_t>(count - scene.positions.size());
+  const auto put = [&](auto& values, const auto& value) { values.insert(values.begin(), hidden, value); };
+  for (Triangle& t : scene.triangles) t.v0 += hidden, t.v1 += hidden, t.v2 += hidden;
+  for (std::uint32_t i = 0; i < hidden; i += 3) {
+    const std::uint32_t first = std::min(i, hidden - 3);
+    scene.triangles.push_back({first, first + 1, first + 2, 0});
+  }
+  put(scene.positions, glm::vec3(0));
+  for (std::uint32_t i = 0; i < hidden; ++i)
+    scene.positions[i] = glm::vec3(i % 3, -1e-3F * static_cast<float>(i / 3), 50 + i % 2);
+  put(scene.normals, glm::vec3(-1, 0, 0));
+  put(scene.colors, glm::vec4(0, 0, 0, 1));
+  put(scene.uv0, glm::vec2(0));
+  return scene;
+}
+
+TEST(TrimmedPictures, VertexIndicesAreAsWideAsTheyMustBe) {
+  const auto bytesOfCorners = [](const Scene& scene, std::uint64_t each) {
+    const std::uint64_t corners = 3 * (scene.triangles.size() + 1);  // and the one that nothing hits
+    return (corners * each + 3) / 4 * 4;
+  };
+  Settings settings = smallSettings(4);
+  const RenderResult few = renderOnDevice(maskedRoom(), settings);
+  EXPECT_EQ(bytesOf(few.stats, "corners"), bytesOfCorners(maskedRoom(), 2));
+  for (const std::size_t count : {std::size_t{65536}, std::size_t{65537}}) {
+    const Scene scene = withVertices(maskedRoom(), count);
+    for (const Lanes lanes : {Lanes::Auto, Lanes::One}) {
+      settings.lanes = lanes;
+      const RenderResult many = renderOnDevice(scene, settings);
+      EXPECT_EQ(many.stats.trimmed.vertices.kept(), count);
+      EXPECT_EQ(bytesOf(many.stats, "corners"), bytesOfCorners(scene, count > 65536 ? 4 : 2)) << count;
+      EXPECT_EQ(differingPixels(many.radiance, few.radiance), 0U) << count;
+    }
+    EXPECT_EQ(bytesOf(expectSameBits(scene), "corners"), bytesOfCorners(scene, count > 65536 ? 4 : 2));
+  }
+}
+
 TEST(TrimmedPictures, StatisticsSayWhatStaysOnTheHost) {
   Scene scene = room();
   scene.lights.push_back(pointLight({0, 1, 0}, 0));

@@ -93,7 +93,7 @@ class SearchBench {
     const std::vector<float> rubbish(std::size_t{HIT_PLANES} * capacity + QUEUE_PADDING, std::nanf(""));
     const Buffer out = compute_.upload("hits", rubbish);
     stages->run("intersect", (count + raysEach_ - 1) / raysEach_, count, deviceScene, first, count, capacity,
-                in, out);
+                in, out, std::uint32_t{HIT_PLANES});
     std::vector<float> hits(rubbish.size());
     compute_.read(out, 0, out.bytes, hits.data());
     std::vector<TestHit> result(count);

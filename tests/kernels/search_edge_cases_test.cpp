@@ -75,6 +75,13 @@ glm::vec3 wideRange(test::Rng& rng, float scale) {
 
 constexpr std::uint32_t kTriangles = 200;
 
+/// Along w's side of the surface, 1 to 1e-5 rad above it.
+glm::vec3 grazing(const glm::vec3& w, const glm::vec3& n_g, test::Rng& rng) {
+  const glm::dvec3 n(n_g), tangent = glm::dvec3(w) - glm::dot(glm::dvec3(w), n) * n;
+  const double height = std::copysign(std::pow(10.0, rng.between(-5, 0)), glm::dot(w, n_g));
+  return glm::vec3(glm::normalize(glm::normalize(tangent) + height * n));
+}
+
 /// How many rays meet the triangle they left, which stands alone: a search keeps the nearest hit only, and
 /// another triangle could hide it. The first form sees every triangle, the others a third of them.
 std::size_t againstOwn(SearchLab& lab, const test::TriangleMesh& mesh, const std::vector<TestRay>& leaving,
@@ -147,6 +154,7 @@ TEST(EdgeCases, NoReintersection) {
       if (!std::isfinite(n_g.x)) continue;  // too thin for a normal
       glm::vec3 w = rng.direction();
       while (glm::dot(w, n_g) == 0.0F) w = rng.direction();
+      if (rng.bits() & 1U) w = grazing(w, n_g, rng);
       leaving.push_back({glm::dot(w, n_g) > 0 ? at3(0, i) : at3(1, i), w});
       own.push_back(at[i]);
       ++spawned;

@@ -13,8 +13,7 @@ import dataclasses
 import functools
 import shutil
 
-import numpy
-
+from lib import bump_picture
 from lib import bump_scenes as scenes
 from lib import measure as repeat
 from lib.bump_scenes import Place
@@ -48,6 +47,10 @@ VARIANTS = [
     Variant("1e-4 m, shading normal", "shading_normal", metres=1e-4),
     Variant("1e-4 m, ray", "ray_direction", metres=1e-4),
     Variant("none", metres=0.0)]
+# What the picture shows: the heads of its columns, and the variants.
+SHOWN = {"none": "none", "1e-4 m": "1e-4 m, geometric normal", "256 ulp": "256 ulp (Ray Tracing Gems 6), geometric normal",
+         "$2^{-20}$ along the ray": "2^-20 of the hit, ray", "error bound": "error bound (pbrt-v4), geometric normal",
+         "$2^{-20}$ (the default)": DEFAULT.name}
 QUICK = [VARIANTS[i] for i in (0, 1, 4)]
 PLACES = [Place(10.0**k) for k in (-6, -4, -2, 0, 2, 4, 6, 8)] + [Place(1.0, 10.0**k) for k in (2, 3, 4)]
 QUICK_PLACES = [Place(1e-4), Place(1.0), Place(1.0, 1e3)]
@@ -184,12 +187,19 @@ def timeFrames(context):
             out.row(scene=name, variant=variant, run=run, render_s=stats["time"]["render"])
 
 
-def measure(context):
+def counts(context):
+    """Everything that does not depend on how busy the machine is."""
     variants = context.pick(QUICK, VARIANTS)
-    warmUp(context, context.pick(variants, variants))
+    warmUp(context, variants)
     count(context, variants, context.pick(QUICK_PLACES, PLACES))
     if not context.quick:
         sweepLengths(context)
+    named = {v.name: v for v in variants}
+    bump_picture.render(context, {title: named[name] for title, name in SHOWN.items() if name in named})
+
+
+def measure(context):
+    counts(context)
     timeFrames(context)
 
 

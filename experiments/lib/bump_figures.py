@@ -4,7 +4,7 @@ import math
 from lib import style, table
 
 SELF_HITS = ("acne", "acne, leaning normals", "acne, low facet", "mirror", "air")
-PANELS = [("self-hits, % of pixels", SELF_HITS), ("leaks, % of the room", ("leak",)),
+PANELS = [("light lost on a body, %", SELF_HITS), ("leaks, % of the room", ("leak",)),
           ("smallest gap kept, of the size", ("gap of a shadow",))]
 WIDEST, NARROWEST = 1.0, 2.0**-24  # of the gaps' scale
 
@@ -42,14 +42,16 @@ def drawShares(axis, values):
     axis.set_ylim(0, 13.5)
 
 
-def drawGaps(axis, values, default):
-    for x, value in enumerate(values):
+def drawGaps(axis, values, default, lost):
+    """Hollow where bodies shadow themselves: then a gap may be dark for the wrong reason."""
+    for x, (value, share_) in enumerate(zip(values, lost)):
         if value == "none":
             axis.text(x, WIDEST / 8, "×", ha="center", va="center", color=style.RED, fontsize=10, fontweight="bold")
-        else:
-            axis.plot([x], [value], marker="o", color=style.BLUE, markersize=4)
+        elif value:
+            axis.plot([x], [value], marker="o", color=style.BLUE, markersize=4,
+                      markerfacecolor="white" if share_ else style.BLUE)
     for x, value in enumerate(default):
-        if value != "none":
+        if value and value != "none":
             axis.plot([x - 0.4, x + 0.4], [value, value], color=style.GREY, linewidth=0.8)
     axis.set_yscale("log")
     axis.set_ylim(NARROWEST / 2, WIDEST)
@@ -63,7 +65,7 @@ def drawPlaces(folder):
           for v in variants for p in there}
 
     def gapsOf(variant):
-        return [next(r["value"] for r in at[variant, p] if r["measure"] == PANELS[2][1][0]) for p in there]
+        return [next((r["value"] for r in at[variant, p] if r["measure"] == PANELS[2][1][0]), None) for p in there]
 
     figure, axes = style.figure(len(variants), 3, height=0.72 * len(variants) + 1.0, sharex=True, squeeze=False)
     atOrigin = sum(p[1] == 0 for p in there)
@@ -71,7 +73,7 @@ def drawPlaces(folder):
         for axis, (_, measures) in zip(line[:2], PANELS):
             drawShares(axis, [share(at[variant, p], measures) for p in there])
             axis.set_yticks([])
-        drawGaps(line[2], gapsOf(variant), gapsOf(variants[0]))
+        drawGaps(line[2], gapsOf(variant), gapsOf(variants[0]), [share(at[variant, p], SELF_HITS) for p in there])
         line[2].set_yticks([1e-6, 1e-3, 1])
         line[2].tick_params(labelsize=7)
         for axis in line:
@@ -90,7 +92,7 @@ def drawPlaces(folder):
 def drawLengths(folder):
     rows = table.read(folder / "data", "bump_lengths")
     figure, axes = style.figure(1, 3, height=3.4, sharey=True)
-    titles = {"acne": "light on convex bodies", "mirror": "mirror images", "air": "through a solid"}
+    titles = {"acne": "light on convex bodies", "acne, leaning normals": "where normals lean over", "mirror": "mirror images"}
     for axis, (measure, title) in zip(axes, titles.items()):
         for i, vector in enumerate(dict.fromkeys(r["vector"] for r in rows)):
             points = [(r["length"], 100 * r["value"] / r["of"]) for r in rows

@@ -4,7 +4,7 @@ import math
 import numpy
 
 from lib import glb, style
-from lib.bump_scenes import Place, ellipsoid, onGrid
+from lib.bump_scenes import GRID, Place, ellipsoid, onGrid
 from peers.pictures import pixels, shown
 
 PLACES = {"1 m": Place(1.0), "0.1 mm": Place(1e-4), "1 m, 10 km\nfrom the origin": Place(1.0, 1e4)}
@@ -25,10 +25,11 @@ def turned(position, target):
 
 
 def stillLife(place):
-    """Two heights wide; the sun stands across the tent, so that its open end lets nothing in."""
+    """Two heights wide; the sun stands across the tent, so that its open end lets nothing in. The ground is a little out of
+    level."""
     scene = glb.Scene((0.02, 0.03, 0.05))
     grey, white, warm = (scene.material(**glb.matte(c)) for c in (0.5, 0.9, 0.7))
-    sheet(scene, place, [(0, 0, 2), (2, 0, 2), (2, 0, 0), (0, 0, 0)], grey)
+    sheet(scene, place, [(0, 2 * GRID, 2), (2, 4 * GRID, 2), (2, 2 * GRID, 0), (0, 0, 0)], grey)
     corners, normals, triangles = ellipsoid((1.45, 0.3125, 1.3), (0.3, 0.3, 0.3))
     scene.mesh(place.at(corners), triangles, white, normals)
     sheet(scene, place, [(0.5, 0.03, 1.7), (1.0, 0.03, 1.7), (1.0, 0.08, 1.2), (0.5, 0.08, 1.2)], warm)
@@ -36,27 +37,27 @@ def stillLife(place):
     for (y, z) in (back, front):
         sheet(scene, place, [(0.4, y, z), (1.6, y, z), (1.6, *ridge), (0.4, *ridge)], warm)
     scene.mesh(place.at(onGrid([(0.4, *back), (0.4, *front), (0.4, *ridge)])), [(0, 1, 2)], warm)
-    scene.sun(math.radians(50), (2.2, 2.1, 1.9))
+    scene.sun(math.radians(44), (2.2, 2.1, 1.9))
     eye, target = (3.3, 1.5, 2.6), (1.05, 0.15, 0.9)
     position = numpy.multiply(eye, place.size) + place.away
-    scene.camera(glb.PERSPECTIVE, {"yfov": math.radians(34), "znear": 1e-3 * place.size}, position, turned(eye, target))
+    scene.camera(glb.PERSPECTIVE, {"yfov": math.radians(29), "znear": 1e-3 * place.size}, position, turned(eye, target))
     return scene
 
 
 def render(context, variants):
     """FOLDER/figures/bump_why.png: a column for each of the variants (title -> Variant), a row for each place."""
-    figure, axes = style.pyplot.subplots(len(PLACES), len(variants), figsize=(11, 1.35 * len(PLACES) * 1.15),
+    figure, axes = style.pyplot.subplots(len(PLACES), len(variants), figsize=(11, 1.4 * len(PLACES) + 0.3),
                                          squeeze=False)
+    for axis, title in zip(axes[0], variants):
+        axis.set_title(title, fontsize=9)
     for line, (where, place) in zip(axes, PLACES.items()):
         scene = stillLife(place).write(context.folder / f"bump_why_{place.size:g}_{place.away:g}.glb")
-        for axis, (title, variant) in zip(line, variants.items()):
+        for axis, variant in zip(line, variants.values()):
             picture = context.folder / "bump_why.exr"
             context.render(scene, "--width", WIDTH, "--height", HEIGHT, "--bounces", 1, "--keep-all-features", "-o", picture,
                            *variant.options(context, place))
             axis.imshow(shown(pixels(picture)), interpolation="nearest")
             axis.set(xticks=[], yticks=[])
-            if line is axes[0]:
-                axis.set_title(title, fontsize=9)
         line[0].set_ylabel(where, fontsize=9)
     figures = context.out / "figures"
     figures.mkdir(parents=True, exist_ok=True)

@@ -97,18 +97,18 @@ def bodies(scene, place, material, flatToo=True):
 
 
 def facets(scene, place, material):
-    """One slanted; one with normals that lean 60 to 88 degrees over, as on the smoothed rim of a thin plate; one that
+    """One slanted; one with normals that lean 80 to 88 degrees over, as on the smoothed rim of a thin plate; one that
     nearly lies in the plane z = 0, as most grounds do."""
-    for span, heights in ((SLANTED, (0.1, 0.7, 0.3)), (LEANING, (0.1, 0.7, 0.3)), (LOW, (GRID, 2 * GRID, 3 * GRID))):
+    for span, heights in ((SLANTED, (0.1, 0.7, 0.3)), (LEANING, (0.1, 0.15, 0.3)), (LOW, (GRID, 2 * GRID, 3 * GRID))):
         xs, ys = (span[0], span[1], span[0] + 0.02), (0.05, 0.5, 0.95)
         corners = onGrid(list(zip(xs, ys, heights)))
         normals = None
         if span == LEANING:
             n_g = numpy.cross(corners[1] - corners[0], corners[2] - corners[0])
             n_g /= numpy.linalg.norm(n_g)
-            along = numpy.cross(n_g, (0, 1, 0))
+            along = numpy.cross(n_g, (0, 1, 0))  # towards the camera
             along /= numpy.linalg.norm(along)
-            normals = [math.cos(math.radians(a)) * n_g + math.sin(math.radians(a)) * along for a in (60, 80, 88)]
+            normals = [math.cos(math.radians(a)) * n_g + math.sin(math.radians(a)) * along for a in (80, 85, 88)]
         scene.mesh(place.at(corners), [(0, 1, 2)], material, normals)
 
 

@@ -1,10 +1,10 @@
 """How far should rays start off the surface they leave, and along what?
 
 Held constant: scenes (lib/bump_scenes.py), whose pictures are known beforehand, so that whatever else comes out was the
-bump's doing. Varied: the bump, by another kernels/lib/bump.cl (bumps/) or a fixed length; the scene's size, 1e-6 to 1e8 m
-at the origin, and its distance from the origin, up to 1e4 times its size. Counted at each: acne (light lost on convex
-bodies), mirror and air (rays that leave one and meet it again), leak (lit pixels in a closed room), the smallest gap
-whose shadow and mirror image are whole. Frames of two scenes are timed in turn, with what each needs compiled alone.
+bump's doing. Varied: the bump, by another kernels/lib/bump.cl (bumps/) or a fixed length; the scene's size, 1e-6 to
+1e8 m at the origin, and its distance from the origin, up to 1e4 times its size. Counted at each: acne (light lost on
+convex bodies), mirror and air (rays that leave one and meet it again), leak (lit pixels in a closed room), the smallest
+gap whose shadow and mirror image are whole. Frames of two scenes are timed in turn, with what each needs compiled.
 Writes data/bump.tsv (counts), bump_lengths.tsv (acne against the length), bump_times.tsv; figures bump, bump_lengths
 and the picture bump_why.
 """
@@ -36,6 +36,7 @@ class Variant:
 
 
 DEFAULT = Variant("2^-20 of the hit, geometric normal")
+# Not every vector with every length: a length's faults are the same along each (bump_lengths.tsv has them all).
 VARIANTS = [
     DEFAULT,
     Variant("error bound (pbrt-v4), geometric normal", "error_bound"),
@@ -44,17 +45,17 @@ VARIANTS = [
     Variant("1e-4 m, geometric normal", metres=1e-4),
     Variant("2^-20 of the hit, shading normal", "shading_normal"),
     Variant("2^-20 of the hit, ray", "ray_direction"),
-    Variant("1e-4 m, shading normal", "shading_normal", metres=1e-4),
-    Variant("1e-4 m, ray", "ray_direction", metres=1e-4),
     Variant("none", metres=0.0)]
 # What the picture shows: the heads of its columns, and the variants.
-SHOWN = {"none": "none", "1e-4 m": "1e-4 m, geometric normal", "256 ulp": "256 ulp (Ray Tracing Gems 6), geometric normal",
-         "$2^{-20}$ along the ray": "2^-20 of the hit, ray", "error bound": "error bound (pbrt-v4), geometric normal",
+SHOWN = {"none": "none", "1e-4 m": "1e-4 m, geometric normal",
+         "256 ulp": "256 ulp (Ray Tracing Gems 6), geometric normal",
+         "$2^{-20}$ along the ray": "2^-20 of the hit, ray",
+         "error bound": "error bound (pbrt-v4), geometric normal",
          "$2^{-20}$ (the default)": DEFAULT.name}
 QUICK = [VARIANTS[i] for i in (0, 1, 4)]
 PLACES = [Place(10.0**k) for k in (-6, -4, -2, 0, 2, 4, 6, 8)] + [Place(1.0, 10.0**k) for k in (2, 3, 4)]
 QUICK_PLACES = [Place(1e-4), Place(1.0), Place(1.0, 1e3)]
-LENGTHS = [2.0**k for k in range(-3, 8)]  # in 2^-24 of the coordinates, half an ulp of the largest float below a power of 2
+LENGTHS = [2.0**k for k in range(-2, 7)]  # in 2^-24 of the coordinates: half an ulp or more
 FAR = Place(1.0, 1000.0)
 # name: scene, bounces; more than one, so that one program draws all three
 PICTURES = {"shadow": (scenes.shadowScene, 2), "mirror": (scenes.mirrorScene, 2), "air": (scenes.airScene, 3)}
@@ -122,10 +123,12 @@ def measures(lit, found):
     sun = 0  # the one from straight ahead: others shine into a wide gap
     shadow = found["shadow"]
     return {"acne": acne(lit, shadow, scenes.BALL, scenes.FLAT, scenes.SLANTED),
-            "acne, leaning normals": acne(lit, shadow, scenes.LEANING), "acne, low facet": acne(lit, shadow, scenes.LOW),
+            "acne, leaning normals": acne(lit, shadow, scenes.LEANING),
+            "acne, low facet": acne(lit, shadow, scenes.LOW),
             "leak": leak(shadow),
             "gap of a shadow": smallestGap(lambda at: (shadow[at][..., sun] == 0).all() and lit[at][..., sun].all()),
-            "mirror": darkened(found["mirror"], [scenes.BALL]), "air": darkened(found["air"], [scenes.BALL, scenes.FLAT]),
+            "mirror": darkened(found["mirror"], [scenes.BALL]),
+            "air": darkened(found["air"], [scenes.BALL, scenes.FLAT]),
             "gap in a mirror": smallestGap(lambda at: (found["air"][at] == 0).all())}
 
 
@@ -158,27 +161,29 @@ def count(context, variants, places):
 
 
 def sweepLengths(context):
-    """Acne against the length, for each vector, where the largest coordinate is the same everywhere."""
+    """Light lost against the length, for each vector, where the largest coordinate is the same everywhere."""
     out = context.table("bump_lengths", ["vector", "length", "measure", "value", "of"])
     vectors = {"geometric normal": None, "shading normal": "shading_normal", "ray": "ray_direction"}
     lit = picture(context, "shadow", FAR, "--no-shadows")
-    asked = [(vector, length) for vector in vectors for length in context.pick(LENGTHS[::4], LENGTHS)]
+    asked = [(vector, length) for vector in vectors for length in LENGTHS]
     jobs = []
     for vector, length in asked:
         fixed = Variant("", vectors[vector], metres=length * 2.0**-24 * FAR.away)
-        jobs += [functools.partial(picture, context, name, FAR, *fixed.options(context, FAR)) for name in PICTURES]
+        jobs += [functools.partial(picture, context, name, FAR, *fixed.options(context, FAR))
+                 for name in ("shadow", "mirror")]
     found = sideBySide(context, jobs)
     for vector, length in asked:
-        pictures = {name: next(found) for name in PICTURES}
-        for measure_, (value, of) in measures(lit, pictures).items():
-            if of:
-                out.row(vector=vector, length=length, measure=measure_, value=value, of=of)
+        shadow, image = next(found), next(found)
+        lost = {"acne": acne(lit, shadow, scenes.BALL, scenes.FLAT, scenes.SLANTED),
+                "acne, leaning normals": acne(lit, shadow, scenes.LEANING), "mirror": darkened(image, [scenes.BALL])}
+        for measure_, (value, of) in lost.items():
+            out.row(vector=vector, length=length, measure=measure_, value=value, of=of)
 
 
 def timeFrames(context):
     """Frames of each length and vector, in turn; one fixed length stands for all."""
     out = context.table("bump_times", ["scene", "variant", "run", "render_s"])
-    chosen = [v for v in VARIANTS if v.name != "none" and not (v.file and v.metres) and v.heights is None]
+    chosen = [v for v in VARIANTS if v.name != "none" and v.heights is None]
     for name, find in TIMED.items():
         file, picture_ = find(context), context.pick(size(320, 180), size(1280, 720))
         runs = {v.name: functools.partial(context.render, file, *picture_, *v.options(context, Place(1.0)))

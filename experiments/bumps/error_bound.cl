@@ -1,6 +1,6 @@
 // The bound of the rounding error of each coordinate, gamma(7) of its extent, along the geometric normal; then the next
-// float away from the surface (pbrt-v4's OffsetRayOrigin: Pharr, Jakob, Humphreys 2023, 6.8.6). No shift for rounding
-// where the offset is 0. pbrt's test of triangles also refuses distances within their own error bound; ours does not.
+// float away from the surface (pbrt-v4: Pharr, Jakob, Humphreys 2023, 6.8.5 and 6.8.6). pbrt's triangles also refuse
+// hits within the error bound of their distance (6.8.7); ours do not.
 #include "lib/surfels.cl"
 
 INLINE Real bumpAt(const RenderConstants* constants, const Surfel* s) {

@@ -17,7 +17,7 @@ INLINE Real3 bumpedOrigin(const RenderConstants* constants, const Surfel* s, Rea
   return add3(s->position, scale3(side, s->n));
 }
 
-/// How far a shadow ray goes towards a light at that distance from the hit: it stops short of a surface the light lies on.
+/// How far a shadow ray goes to a light at that distance from the hit: short of a surface that the light lies on.
 INLINE Real shadowLength(const RenderConstants* constants, const Surfel* s, Real distance) {
   const Real free = distance - 2.0f * bumpAt(constants, s);
   const Real length = distance < INFINITY ? free : (Real)(MAXFLOAT);

@@ -92,7 +92,8 @@ def drawPlaces(folder):
 def drawLengths(folder):
     rows = table.read(folder / "data", "bump_lengths")
     figure, axes = style.figure(1, 3, height=3.4, sharey=True)
-    titles = {"acne": "light on convex bodies", "acne, leaning normals": "where normals lean over", "mirror": "mirror images"}
+    titles = {"acne": "light on convex bodies", "acne, leaning normals": "where normals lean over",
+              "mirror": "mirror images"}
     for axis, (measure, title) in zip(axes, titles.items()):
         for i, vector in enumerate(dict.fromkeys(r["vector"] for r in rows)):
             points = [(r["length"], 100 * r["value"] / r["of"]) for r in rows

@@ -25,8 +25,8 @@ def turned(position, target):
 
 
 def stillLife(place):
-    """Two heights wide; the sun stands across the tent, so that its open end lets nothing in. The ground is a little out of
-    level."""
+    """Two heights wide; the sun stands across the tent, so that its open end lets nothing in. The ground is a little
+    out of level."""
     scene = glb.Scene((0.02, 0.03, 0.05))
     grey, white, warm = (scene.material(**glb.matte(c)) for c in (0.5, 0.9, 0.7))
     sheet(scene, place, [(0, 2 * GRID, 2), (2, 4 * GRID, 2), (2, 2 * GRID, 0), (0, 0, 0)], grey)
@@ -54,8 +54,8 @@ def render(context, variants):
         scene = stillLife(place).write(context.folder / f"bump_why_{place.size:g}_{place.away:g}.glb")
         for axis, variant in zip(line, variants.values()):
             picture = context.folder / "bump_why.exr"
-            context.render(scene, "--width", WIDTH, "--height", HEIGHT, "--bounces", 1, "--keep-all-features", "-o", picture,
-                           *variant.options(context, place))
+            context.render(scene, "--width", WIDTH, "--height", HEIGHT, "--bounces", 1, "--keep-all-features",
+                           "-o", picture, *variant.options(context, place))
             axis.imshow(shown(pixels(picture)), interpolation="nearest")
             axis.set(xticks=[], yticks=[])
         line[0].set_ylabel(where, fontsize=9)

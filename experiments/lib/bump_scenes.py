@@ -38,7 +38,8 @@ def onGrid(points):
 
 def icosahedron():
     g = (1 + math.sqrt(5)) / 2
-    corners = numpy.array([p for a, b in itertools.product((-1, 1), (-g, g)) for p in ((0, a, b), (a, b, 0), (b, 0, a))])
+    corners = numpy.array([p for a, b in itertools.product((-1, 1), (-g, g))
+                           for p in ((0, a, b), (a, b, 0), (b, 0, a))])
     near = [set(numpy.flatnonzero(numpy.isclose(numpy.linalg.norm(corners - c, axis=1), 2))) for c in corners]
     faces = [(i, j, k) for i in range(12) for j in near[i] for k in near[i] & near[j] if i < j < k]
     return corners, [outwards(corners, f) for f in faces]

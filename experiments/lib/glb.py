@@ -42,7 +42,8 @@ class Scene:
     def sun(self, tilt, irradiance):
         """Shines from (0, sin tilt, cos tilt); tilt in radians, irradiance RGB in W/m2."""
         strongest = max(irradiance)
-        self.lights.append({"type": "directional", "intensity": strongest, "color": [c / strongest for c in irradiance]})
+        colour = [c / strongest for c in irradiance]
+        self.lights.append({"type": "directional", "intensity": strongest, "color": colour})
         self.nodes.append({"rotation": [-math.sin(tilt / 2), 0, 0, math.cos(tilt / 2)],
                            "extensions": {"KHR_lights_punctual": {"light": len(self.lights) - 1}}})
 

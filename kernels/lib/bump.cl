@@ -1,7 +1,7 @@
 // How far rays start off the surface that they leave, lest it stops them: 2^-20 of the hit's largest coordinate, along
-// the geometric normal, on the side that they leave to. Blending three corners in single precision is off by at most
-// gamma(7) of `extent` in each coordinate (Pharr, Jakob, Humphreys 2023, 6.8.6), 7 sqrt(3) 2^-24 of the largest along any
-// normal, adding the bump by sqrt(3) 2^-24 more: 13.9 of the 16 are needed. experiments/README.md compares others.
+// the geometric normal, on the side that they leave to. In units of 2^-24 of that coordinate: blending three corners is
+// off by at most 7 along each axis (Pharr, Jakob, Humphreys 2023, 6.8.5), 7 sqrt(3) along any normal; adding the bump,
+// by sqrt(3) more. That is 13.9 of the 16; the rest is for the rounding of the search. Others: experiments/README.md.
 #include "lib/surfels.cl"
 
 /// Distance that origins keep from the hit, m.
@@ -20,7 +20,7 @@ INLINE Real3 bumpedOrigin(const RenderConstants* constants, const Surfel* s, Rea
   return add3(s->position, scale3(side, s->n_g));
 }
 
-/// How far a shadow ray goes towards a light at that distance from the hit: it stops short of a surface the light lies on.
+/// How far a shadow ray goes to a light at that distance from the hit: short of a surface that the light lies on.
 INLINE Real shadowLength(const RenderConstants* constants, const Surfel* s, Real distance) {
   const Real free = distance - 2.0f * bumpAt(constants, s);
   const Real length = distance < INFINITY ? free : (Real)(MAXFLOAT);

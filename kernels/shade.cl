@@ -4,6 +4,7 @@
 // shade_light: the shadow candidate of a further light, one round for each light, so that memory does not grow with them.
 #include "lib/background.cl"
 #include "lib/bsdf.cl"
+#include "lib/bump.cl"
 #include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
 #include "lib/light.cl"
@@ -101,11 +102,9 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
   const Real3 carried = mul3(contribution, attenuation);
 #if HAS(SHADOWS)
   if (light->castsShadows) {
-    storeReal3(shadows, capacity, SHADOW_O, i, add3(s->position, scale3(s->bump, s->n_g)));
+    storeReal3(shadows, capacity, SHADOW_O, i, bumpedOrigin(constants, s, arriving.w_i));
     storeReal3(shadows, capacity, SHADOW_D, i, arriving.w_i);
-    const Real free = arriving.distance - 2.0f * s->bump;
-    const Real length = arriving.distance < INFINITY ? free : (Real)(MAXFLOAT);
-    STORE(length > 0.0f ? length : (Real)(0.0f), shadows + (size_t)SHADOW_LENGTH * capacity + i);
+    STORE(shadowLength(constants, s, arriving.distance), shadows + (size_t)SHADOW_LENGTH * capacity + i);
     storeReal3(shadows, capacity, SHADOW_CONTRIBUTION, i, carried);
     return lit ? (Natural)(ENTRY_SHADOW) : (Natural)(0);
   }
@@ -139,9 +138,8 @@ INLINE Natural storeImpulse(const RenderConstants* constants, const Surfel* s, c
   sent = sent & !weak;
 #endif
   if (!some(sent)) return cut;
-  const Real side = dots(s->n_g, impulse->w_i) > 0.0f ? s->bump : -s->bump;
   const uint base = k * IMPULSE_PLANES;
-  storeReal3(impulses, capacity, base + IMPULSE_O, i, add3(s->position, scale3(side, s->n_g)));
+  storeReal3(impulses, capacity, base + IMPULSE_O, i, bumpedOrigin(constants, s, impulse->w_i));
   storeReal3(impulses, capacity, base + IMPULSE_D, i, impulse->w_i);
   storeReal3(impulses, capacity, base + IMPULSE_THROUGHPUT, i, carried);
   return cut + (sent ? (Natural)(ENTRY_IMPULSE0 << k) : (Natural)(0));
@@ -257,7 +255,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #endif
   Surfel s;
   if (some(a.hit)) {
-    s = surfelAt(&scene, &own, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
+    s = surfelAt(&scene, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
     const Real3 w_o = minus3(a.d);
     const Real3 attenuation = absorptionAlong(&s, a.t);
     Real3 shaded = mul3(scale3(s.alpha, s.emission), attenuation);
@@ -306,7 +304,7 @@ __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const u
   const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
   Natural found = (Natural)(0);
   if (some(a.hit)) {
-    const Surfel s = surfelAt(&scene, &own, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
+    const Surfel s = surfelAt(&scene, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
     const Real3 attenuation = absorptionAlong(&s, a.t);
     Real3 radiance = loadReal3(entryRadiance, capacity, 0, i);
     found = directLight(&scene, &own, &s, minus3(a.d), a.hit, light, attenuation, i, capacity, shadows, &radiance);

@@ -16,7 +16,7 @@ typedef struct {
   Real specularF90;
   Real3 emission;  // W/(m² sr), already 0 on a side that does not emit
   Real ior;
-  Real bump;  // m
+  Real3 extent;  // blend of the corners' sizes, axis by axis: what rounding errors of the position are measured by; m
   Mask front;
   Natural flags;  // MATERIAL_…
   Real3 sigma_a;
@@ -273,25 +273,14 @@ INLINE void materialAt(const SceneView* scene, const Places* at, Surfel* s) {
 #endif
 }
 
-/// Distance that a ray's origin keeps from the surface.
-INLINE Real bumpAt(const RenderConstants* constants, const Places* at, Real3 p0, Real3 p1, Real3 p2) {
-#if HAS(FIXED_BUMP)
-  if (!(constants->bump < 0.0f)) return (Real)(constants->bump);
-#endif
-  const Real3 extent = blend(at, real3(fabs(p0.x), fabs(p0.y), fabs(p0.z)), real3(fabs(p1.x), fabs(p1.y), fabs(p1.z)),
-                             real3(fabs(p2.x), fabs(p2.y), fabs(p2.z)));
-  const Real scaled = largestOf(extent.x, extent.y, extent.z) * 9.5367431640625e-7f;  // 2^-20
-  return scaled > 1e-30f ? scaled : (Real)(1e-30f);
-}
-
 /// The surfels at the hits (triangle, t, b1, b2) of the rays o + t d.
-INLINE Surfel surfelAt(const SceneView* scene, const RenderConstants* constants, Natural triangleIndex, Real3 o, Real3 d, Real t,
-                       Real b1, Real b2) {
+INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, Real3 d, Real t, Real b1, Real b2) {
   Surfel s;
   const Places at = placesOf(scene, triangleIndex, o, d, t, b1, b2);
   const Real3 p0 = at.p0, p1 = at.p1, p2 = at.p2;
   s.position = blend(&at, p0, p1, p2);
-  s.bump = bumpAt(constants, &at, p0, p1, p2);
+  s.extent = blend(&at, real3(fabs(p0.x), fabs(p0.y), fabs(p0.z)), real3(fabs(p1.x), fabs(p1.y), fabs(p1.z)),
+                   real3(fabs(p2.x), fabs(p2.y), fabs(p2.z)));
   const Real3 n_g = normalized(crosses(sub3(p1, p0), sub3(p2, p0)));
   s.front = dots(n_g, d) < 0.0f;
   Real3 n = n_g;

@@ -47,6 +47,8 @@ TEST(EdgeCases, SliversAreNotHit) {
 }
 
 constexpr const char* kSurfelKernel = R"(
+float3 firstOf(Real3 v) { return (float3)(FIRST(v.x), FIRST(v.y), FIRST(v.z)); }
+
 __kernel void spawn_points(uint n, SCENE_PARAMS, __global const uint* at, __global const float* b, __global const float* d,
                            __global float* out) {
   const uint i = get_global_id(0);
@@ -54,13 +56,11 @@ __kernel void spawn_points(uint n, SCENE_PARAMS, __global const uint* at, __glob
   const SceneView scene = SCENE_VIEW;
   RenderConstants constants;
   constants.bump = -1.0f;
-  const Surfel s = surfelAt(&scene, &constants, (Natural)(at[i]), same3((float3)(0.0f)), same3(vload3(i, d)), (Real)(0.0f),
+  const Surfel s = surfelAt(&scene, (Natural)(at[i]), same3((float3)(0.0f)), same3(vload3(i, d)), (Real)(0.0f),
                             (Real)(b[2 * i]), (Real)(b[2 * i + 1]));
-  const float3 position = (float3)(FIRST(s.position.x), FIRST(s.position.y), FIRST(s.position.z));
-  const float3 n_g = (float3)(FIRST(s.n_g.x), FIRST(s.n_g.y), FIRST(s.n_g.z));
-  vstore3(position + n_g * FIRST(s.bump), i, out + 0);
-  vstore3(position - n_g * FIRST(s.bump), i, out + 3 * n);
-  vstore3(n_g, i, out + 6 * n);
+  vstore3(firstOf(bumpedOrigin(&constants, &s, s.n_g)), i, out + 0);
+  vstore3(firstOf(bumpedOrigin(&constants, &s, minus3(s.n_g))), i, out + 3 * n);
+  vstore3(firstOf(s.n_g), i, out + 6 * n);
 }
 )";
 
@@ -74,6 +74,13 @@ glm::vec3 wideRange(test::Rng& rng, float scale) {
 }
 
 constexpr std::uint32_t kTriangles = 200;
+
+/// Along w's side of the surface, 1 to 1e-5 rad above it.
+glm::vec3 grazing(const glm::vec3& w, const glm::vec3& n_g, test::Rng& rng) {
+  const glm::dvec3 n(n_g), tangent = glm::dvec3(w) - glm::dot(glm::dvec3(w), n) * n;
+  const double height = std::copysign(std::pow(10.0, rng.between(-5, 0)), glm::dot(w, n_g));
+  return glm::vec3(glm::normalize(glm::normalize(tangent) + height * n));
+}
 
 /// How many rays meet the triangle they left, which stands alone: a search keeps the nearest hit only, and
 /// another triangle could hide it. The first form sees every triangle, the others a third of them.
@@ -147,6 +154,7 @@ TEST(EdgeCases, NoReintersection) {
       if (!std::isfinite(n_g.x)) continue;  // too thin for a normal
       glm::vec3 w = rng.direction();
       while (glm::dot(w, n_g) == 0.0F) w = rng.direction();
+      if (rng.bits() & 1U) w = grazing(w, n_g, rng);
       leaving.push_back({glm::dot(w, n_g) > 0 ? at3(0, i) : at3(1, i), w});
       own.push_back(at[i]);
       ++spawned;

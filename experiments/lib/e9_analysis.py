@@ -99,11 +99,11 @@ def floors(data):
     return rows
 
 
-def front(points, key):
-    """Those that no other beats in both time and error."""
+def front(points, key, gain=0.95):
+    """Those that no other beats in both time and error; less than a twentieth off the error is noise and no gain."""
     best, kept = math.inf, []
     for point in sorted(points, key=key):
-        if key(point)[1] < best:
+        if key(point)[1] < best * gain:
             best = key(point)[1]
             kept.append(point)
     return kept

@@ -25,10 +25,10 @@ def panels(scenes, height, **options):
     return figure, dict(zip(scenes, axes.flat))
 
 
-def legendBelow(axis, entries, down, across=0.5):
-    """Each name once, under the axis (down: in its heights); across 1.1: under the middle of two."""
+def legendBelow(axis, entries, down, columns=4):
+    """Each name once, under the axis (down: in its heights)."""
     unique = {label: handle for handle, label in zip(*entries) if label}
-    axis.legend(unique.values(), unique.keys(), loc="upper center", bbox_to_anchor=(across, down), ncol=4, frameon=False,
+    axis.legend(unique.values(), unique.keys(), loc="upper center", bbox_to_anchor=(0.5, down), ncol=columns, frameon=False,
                 fontsize=8.5)
 
 
@@ -76,6 +76,7 @@ def drawMeasures(folder, data):
                 i = SAMPLERS.index(variant)
                 seconds, middle, low, high = spread(data, scene, variant, value)
                 style.draw(axis, i, seconds, middle, low, high, label=variant)
+            style.plainLog(axis.xaxis)
     axes[0][0].legend(frameon=False, fontsize=8, loc="lower left")
     style.save(figure, folder, "e9_measures")
 
@@ -101,7 +102,8 @@ def drawSlopes(folder, data):
         axis.set(xlabel=f"exponent of {MEASURES[value]}", ylim=(-0.5, len(SAMPLERS) - 0.5))
         axis.set_yticks(range(len(SAMPLERS)), SAMPLERS[::-1])
         axis.set_xlim(-1.5, -0.1)
-    legendBelow(axes[0], axes[0].get_legend_handles_labels(), -0.2, 1.1)
+    # Adaptive pictures have no FLIP: there is room.
+    axes[1].legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=2, frameon=False, fontsize=8.5)
     style.save(figure, folder, "e9_slopes")
 
 
@@ -131,8 +133,7 @@ def drawFloors(folder, data):
     causes.sort(key=lambda c: -max(r["rmse"] for r in data["floors"] if r["cause"] == c))
     figure, axis = style.figure(1, 1, 0.42 * len(causes) + 1.3)
     looks = {scene: i for i, scene in enumerate(data["scenes"])}
-    least = 10**-8.5
-    values = {scene: {r["cause"]: max(r["rmse"], least) for r in data["floors"] if r["scene"] == scene}
+    values = {scene: {r["cause"]: r["rmse"] for r in data["floors"] if r["scene"] == scene and r["rmse"] > 0}
               for scene in data["scenes"]}
     dots.draw(axis, causes, values, looks)
     axis.set(xscale="log", xlabel="RMSE over the mean")
@@ -174,6 +175,8 @@ def drawFront(folder, data):
                           fontsize=6.5, va="top", color=style.GREY)
     axis.set(xscale="log", xlabel="seconds of rendering (below: RMSE over the mean)")
     axis.set_yticks(range(len(data["scenes"])), [shown(s) for s in reversed(data["scenes"])])
+    axis.set_ylim(-0.75, len(data["scenes"]) - 0.6)
+    style.plainLog(axis.xaxis)
     legendBelow(axis, axis.get_legend_handles_labels(), -0.24)
     style.save(figure, folder, "e9_front")
 
@@ -196,7 +199,7 @@ def drawRatios(axis, data, names):
                       ha="center", fontsize=8.5)
         for scene, r in found.items():
             axis.plot(r["median"], row - 0.3, markersize=4, markerfacecolor="white",
-                      **{**style.look(data["scenes"].index(scene)), "linestyle": "none"},
+                      **{**style.look(data["scenes"].index(scene)), "linestyle": "none", "color": style.GREY},
                       label=shown(scene) if i == 0 else "")
     axis.set_yticks(range(len(names)), names[::-1])
     axis.set_ylim(-0.6, len(names) - 0.4)
@@ -208,7 +211,7 @@ def drawCalibration(folder, data):
     figure, (left, right) = style.figure(1, 2, 4.6, width_ratios=[1, 1])
     left.set(xscale="log", yscale="log", xlabel="estimated RMSE over the mean", ylabel="true RMSE over the mean",
              title="Each look of each run")
-    right.set(xscale="log", xlabel="true RMSE over the estimated one", title="Median, half, nine tenths; scenes below")
+    right.set(xscale="log", xlabel="true RMSE over the estimated one", title="Half, nine tenths; scenes")
     chosen = {v: honest([r for r in data["looks"] if r["variant"] == v]) for v in names}
     ends = [f(f(p) for points in chosen.values() for p in points) for f in (min, max)]
     left.plot(ends, ends, color=style.GREY, linewidth=1)
@@ -216,7 +219,8 @@ def drawCalibration(folder, data):
         left.plot(*zip(*points), **{**style.look(SAMPLERS.index(variant)), "linestyle": "none"}, markersize=4,
                   markerfacecolor="none")
     drawRatios(right, data, names)
-    legendBelow(left, right.get_legend_handles_labels(), -0.2, 1.1)
+    style.plainLog(right.xaxis)
+    legendBelow(right, right.get_legend_handles_labels(), -0.15, 3)
     style.save(figure, folder, "e9_calibration")
 
 

@@ -8,13 +8,12 @@ What single precision alone costs is the difference from `whittle reference` wit
 
 Writes e9_curves.tsv (a row for each look of each run), e9_final.tsv (each run's picture by `whittle compare`: RMSE,
 relMSE, FLIP), e9_precision.tsv (against double precision), and what lib/e9_analysis.py finds in them: e9_slopes.tsv,
-e9_floors.tsv, e9_front.tsv, e9_calibration.tsv; figures e9_samplers, e9_measures, e9_slopes, e9_choices, e9_floors,
-e9_calibration.
+e9_floors.tsv, e9_front.tsv, e9_calibration.tsv; figures e9_samplers, e9_measures, e9_slopes, e9_choices, e9_front,
+e9_floors, e9_calibration.
 """
 import json
 import subprocess
 
-from lib import table
 from lib.context import SCENES, RunFailed, size
 
 BOUNCES = 8

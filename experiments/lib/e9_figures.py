@@ -1,12 +1,12 @@
 """Figures of E9: error against time for each sampler and measure, slopes, what cheaper rays cost, which setting is first
 when, and whether the estimate is honest."""
-from lib import dots, fit, style
-from lib.e9_analysis import SAMPLERS, curve, over, ratios
+from lib import dots, style
+from lib.e9_analysis import SAMPLERS, curve, over
 from lib.measure import grouped, quartiles
 
 BIASED = ("depth", "cut-off")
 MEASURES = {"rmse": "RMSE over the mean", "relMse": "relMSE", "flip": "FLIP"}
-THEORY = {-0.5: "independent", -0.75: "strata, edges"}
+THEORY = (-0.5, -0.75)  # independent samples; one in each stratum, at edges
 
 
 def shown(scene):

@@ -135,8 +135,8 @@ def calibration(data):
             if found:
                 low, middle, high = quartiles(found)
                 tail = len(found) // 20
-                rows.append(dict(variant=variant, scene=scene, looks=len(found), tenth=found[tail], low=low,
-                                 median=middle, high=high, ninety=found[-1 - tail]))
+                rows.append(dict(variant=variant, scene=scene, looks=len(found), p5=found[tail], low=low,
+                                 median=middle, high=high, p95=found[-1 - tail]))
     return rows
 
 

@@ -192,7 +192,7 @@ def drawRatios(axis, data, names):
         row, look = len(names) - 1 - i, style.look(SAMPLERS.index(variant))
         found = {r["scene"]: r for r in data["calibration"] if r["variant"] == variant}
         everything = found.pop("all")
-        axis.plot([everything["tenth"], everything["ninety"]], [row, row], color=look["color"], linewidth=1.2)
+        axis.plot([everything["p5"], everything["p95"]], [row, row], color=look["color"], linewidth=1.2)
         axis.plot([everything["low"], everything["high"]], [row, row], color=look["color"], linewidth=5, alpha=0.5)
         axis.plot([everything["median"]], [row], **{**look, "linestyle": "none"}, markersize=8)
         axis.annotate(f"{everything['median']:.2f}", (everything["median"], row), (0, 9), textcoords="offset points",

@@ -1,5 +1,7 @@
 """Figures of E9: error against time for each sampler and measure, slopes, what cheaper rays cost, which setting is first
 when, and whether the estimate is honest."""
+import math
+
 from lib import dots, style
 from lib.e9_analysis import SAMPLERS, curve, over
 from lib.measure import grouped, quartiles
@@ -25,10 +27,10 @@ def panels(scenes, height, **options):
     return figure, dict(zip(scenes, axes.flat))
 
 
-def legendBelow(axis, entries, down, columns=4):
-    """Each name once, under the axis (down: in its heights)."""
+def legendBelow(axis, entries, columns=4):
+    """Each name once, under the label of the axis."""
     unique = {label: handle for handle, label in zip(*entries) if label}
-    axis.legend(unique.values(), unique.keys(), loc="upper center", bbox_to_anchor=(0.5, down), ncol=columns, frameon=False,
+    axis.legend(unique.values(), unique.keys(), loc="upper center", bbox_to_anchor=(0.5, -0.6 / axis.figure.get_figheight()), ncol=columns, frameon=False,
                 fontsize=8.5)
 
 
@@ -76,7 +78,8 @@ def drawMeasures(folder, data):
                 i = SAMPLERS.index(variant)
                 seconds, middle, low, high = spread(data, scene, variant, value)
                 style.draw(axis, i, seconds, middle, low, high, label=variant)
-            style.plainLog(axis.xaxis)
+            style.plainLog(axis.xaxis, (1, 3))
+            axis.tick_params(labelsize=8)
     axes[0][0].legend(frameon=False, fontsize=8, loc="lower left")
     style.save(figure, folder, "e9_measures")
 
@@ -128,18 +131,20 @@ def drawChoices(folder, data):
 
 
 def drawFloors(folder, data):
-    """What each choice leaves wrong whatever the rays, beside what 64 rays leave and what arithmetic does."""
+    """What each choice leaves wrong whatever the rays, beside what 64 rays leave and what arithmetic does. Floors within
+    their own interval of 0 are none."""
     causes = list(dict.fromkeys(r["cause"] for r in data["floors"]))
     causes.sort(key=lambda c: -max(r["rmse"] for r in data["floors"] if r["cause"] == c))
     figure, axis = style.figure(1, 1, 0.42 * len(causes) + 1.3)
     looks = {scene: i for i, scene in enumerate(data["scenes"])}
-    values = {scene: {r["cause"]: r["rmse"] for r in data["floors"] if r["scene"] == scene and r["rmse"] > 0}
+    values = {scene: {r["cause"]: r["rmse"] for r in data["floors"]
+                      if r["scene"] == scene and (r["rmse"] > r["half"] or math.isinf(r["half"]) and r["rmse"] > 0)}
               for scene in data["scenes"]}
     dots.draw(axis, causes, values, looks)
     axis.set(xscale="log", xlabel="RMSE over the mean")
     for scene, i in looks.items():
         axis.plot([], [], markerfacecolor="white", label=shown(scene), **{**style.look(i), "linestyle": "none"})
-    legendBelow(axis, axis.get_legend_handles_labels(), -0.16)
+    legendBelow(axis, axis.get_legend_handles_labels())
     style.save(figure, folder, "e9_floors")
 
 
@@ -177,7 +182,7 @@ def drawFront(folder, data):
     axis.set_yticks(range(len(data["scenes"])), [shown(s) for s in reversed(data["scenes"])])
     axis.set_ylim(-0.75, len(data["scenes"]) - 0.6)
     style.plainLog(axis.xaxis)
-    legendBelow(axis, axis.get_legend_handles_labels(), -0.24)
+    legendBelow(axis, axis.get_legend_handles_labels())
     style.save(figure, folder, "e9_front")
 
 
@@ -220,7 +225,7 @@ def drawCalibration(folder, data):
                   markerfacecolor="none")
     drawRatios(right, data, names)
     style.plainLog(right.xaxis)
-    legendBelow(right, right.get_legend_handles_labels(), -0.15, 3)
+    legendBelow(right, right.get_legend_handles_labels(), 3)
     style.save(figure, folder, "e9_calibration")
 
 

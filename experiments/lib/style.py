@@ -40,12 +40,11 @@ def draw(axis, i, x, y, low=None, high=None, **options):
         axis.vlines(x, low, high, color=style["color"], linewidth=3.5, alpha=0.3)
 
 
-def plainLog(*axes):
-    """Ticks at 1, 2 and 5 of each decade, as plain numbers: for logarithmic axes of few decades."""
-    for axis in axes:
-        axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
-        axis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
-        axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+def plainLog(axis, ticks=(1, 2, 5)):
+    """Ticks at these multiples of each power of ten, as plain numbers: for logarithmic axes of few decades."""
+    axis.set_major_locator(matplotlib.ticker.LogLocator(subs=ticks))
+    axis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+    axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
 
 
 class EndLabels:

@@ -1,6 +1,8 @@
-"""What E9 reads off its runs: slopes, floors, fronts and how honest the estimate is. Errors are over the mean radiance of
-the picture, so that scenes can be put side by side; intervals are Student's over the seeds, which are independent, where
-the looks of one run are not."""
+"""What E9 reads off its runs: slopes, floors, fronts and how honest the estimate is.
+
+Errors are over the mean radiance of the picture, so that scenes can be put side by side; intervals are Student's over
+the seeds, which are independent, where the looks of one run are not.
+"""
 import math
 
 from lib import fit, table

@@ -1,5 +1,5 @@
-"""Figures of E9: error against time for each sampler and measure, slopes, what cheaper rays cost, which setting is first
-when, and whether the estimate is honest."""
+"""Figures of E9: error against time for each sampler and measure, slopes, what cheaper rays cost, which setting is
+first when, and whether the estimate is honest."""
 import math
 
 from lib import dots, style
@@ -30,8 +30,9 @@ def panels(scenes, height, **options):
 def legendBelow(axis, entries, columns=4):
     """Each name once, under the label of the axis."""
     unique = {label: handle for handle, label in zip(*entries) if label}
-    axis.legend(unique.values(), unique.keys(), loc="upper center", bbox_to_anchor=(0.5, -0.6 / axis.figure.get_figheight()), ncol=columns, frameon=False,
-                fontsize=8.5)
+    down = -0.6 / axis.figure.get_figheight()  # 0.6 inches for numbers and label
+    axis.legend(unique.values(), unique.keys(), loc="upper center", bbox_to_anchor=(0.5, down), ncol=columns,
+                frameon=False, fontsize=8.5)
 
 
 def slope(data, scene, variant, measure="rmse"):
@@ -131,8 +132,8 @@ def drawChoices(folder, data):
 
 
 def drawFloors(folder, data):
-    """What each choice leaves wrong whatever the rays, beside what 64 rays leave and what arithmetic does. Floors within
-    their own interval of 0 are none."""
+    """What each choice leaves wrong whatever the rays, beside what 64 rays leave and what arithmetic does. Floors
+    within their own interval of 0 are none."""
     causes = list(dict.fromkeys(r["cause"] for r in data["floors"]))
     causes.sort(key=lambda c: -max(r["rmse"] for r in data["floors"] if r["cause"] == c))
     figure, axis = style.figure(1, 1, 0.42 * len(causes) + 1.3)
@@ -149,7 +150,7 @@ def drawFloors(folder, data):
 
 
 def segments(rows, end):
-    """Neighbours on the front of one variant, as (variant, from, to): a setting is first until another has less error."""
+    """Neighbours on the front of one variant, as [variant, from, to]: it is first until another has less error."""
     found = []
     for row, following in zip(rows, [*rows[1:], {"seconds": end}]):
         if found and found[-1][0] == row["variant"]:

@@ -85,8 +85,9 @@ def floors(data):
     for scene in data["scenes"]:
         for arithmetic in ("strict", "relaxed"):
             values = [over(r, "rmse") for r in data["precision"] if (r["scene"], r["arithmetic"]) == (scene, arithmetic)]
-            rows.append(dict(scene=scene, cause=f"{arithmetic} single precision", rmse=quartiles(values)[1],
-                             half=(max(values) - min(values)) / 2))
+            if values:  # measured last: an interrupted run may lack them
+                rows.append(dict(scene=scene, cause=f"{arithmetic} single precision", rmse=quartiles(values)[1],
+                                 half=(max(values) - min(values)) / 2))
         sixtyFour = [over(r, "rmse") for r in data["looks"] if r["scene"] == scene and r["variant"] == "sobol"
                      and r["rays_per_pixel"] == 64]
         value, half = fit.across(sixtyFour)

@@ -1,11 +1,18 @@
-"""Figures of E9: error against time for each sampler, what cheaper rays cost, and whether the estimate is honest."""
+"""Figures of E9: error against time for each sampler and measure, slopes, what cheaper rays cost, which setting is
+first when, and whether the estimate is honest."""
 import math
 
-from lib import fit, style
+from lib import dots, style
+from lib.e9_analysis import SAMPLERS, curve, over
 from lib.measure import grouped, quartiles
 
-LINES = ["random", "sobol", "random, adaptive", "sobol, adaptive"]
-STRATA = "stratified"
+BIASED = ("depth", "cut-off")
+MEASURES = {"rmse": "RMSE over the mean", "relMse": "relMSE", "flip": "FLIP"}
+THEORY = (-0.5, -0.75)  # independent samples; one in each stratum, at edges
+
+
+def shown(scene):
+    return scene.replace("_", " ")
 
 
 def panels(scenes, height, **options):
@@ -14,109 +21,215 @@ def panels(scenes, height, **options):
     figure, axes = style.figure(rows, 2, height * rows, squeeze=False, **options)
     for axis in axes.flat[len(scenes):]:
         axis.remove()
+    for scene, axis in zip(scenes, axes.flat):
+        axis.set(xscale="log", yscale="log", title=shown(scene), xlabel="seconds of rendering",
+                 ylabel="RMSE over the mean")
     return figure, dict(zip(scenes, axes.flat))
 
 
-def strata(final, scene):
-    """Stratified runs, one for each number of rays: seconds and RMSE over the mean, medians over the seeds."""
-    chosen = [r for r in final if r["scene"] == scene and r["variant"].startswith(STRATA)]
-    points = [(quartiles([r["seconds"] for r in g])[1], quartiles([r["rmse"] / r["mean"] for r in g])[1],
-               g[0]["rays_per_pixel"]) for g in grouped(chosen, ["variant"], lambda r: r).values()]
-    return [list(column) for column in zip(*points)] if points else [[], [], []]
+def legendBelow(axis, entries, columns=4):
+    """Each name once, under the label of the axis."""
+    unique = {label: handle for handle, label in zip(*entries) if label}
+    down = -0.6 / axis.figure.get_figheight()  # 0.6 inches for numbers and label
+    axis.legend(unique.values(), unique.keys(), loc="upper center", bbox_to_anchor=(0.5, down), ncol=columns,
+                frameon=False, fontsize=8.5)
 
 
-def slope(rays, error):
-    """Of log error against log rays, from two rays on, as text."""
-    kept = [(n, e) for n, e in zip(rays, error) if n >= 2 and e > 0]
-    if len(kept) < 3:
-        return ""
-    return f" ∝ N^{fit.shown(*fit.power(*zip(*kept))[1])}"
+def slope(data, scene, variant, measure="rmse"):
+    for r in data["slopes"]:
+        if (r["scene"], r["variant"], r["measure"]) == (scene, variant, measure):
+            return r["slope"], r["half"]
+    return None
 
 
-def drawSamplers(folder, curves, final, curveOf):
-    scenes = list(dict.fromkeys(r["scene"] for r in curves))
-    figure, axes = panels(scenes, 3.3)
+def drawSamplers(folder, data):
+    figure, axes = panels(data["scenes"], 3.3)
     for scene, axis in axes.items():
-        axis.set(xscale="log", yscale="log", title=scene.replace("_", " "), xlabel="seconds of rendering",
-                 ylabel="RMSE over the mean")
         labels = style.EndLabels(axis)
-        for i, variant in enumerate(LINES):
-            seconds, error = curveOf(curves, scene, variant, "seconds", "rmse")
-            rays, _ = curveOf(curves, scene, variant, "rays_per_pixel", "rmse")
+        for i, variant in enumerate(SAMPLERS):
+            _, seconds, error = zip(*curve(data, scene, variant))
             style.draw(axis, i, seconds, error)
-            labels.add(seconds[-1], error[-1], variant + slope(rays, error), style.look(i)["color"])
-        seconds, error, rays = strata(final, scene)
-        if seconds:
-            style.draw(axis, len(LINES), seconds, error)
-            labels.add(seconds[-1], error[-1], STRATA + slope(rays, error), style.look(len(LINES))["color"])
+            found = slope(data, scene, variant)
+            text = f" ∝ N^{found[0]:.2f}" if found else ""
+            labels.add(seconds[-1], error[-1], variant + text, style.look(i)["color"])
         labels.place(size=7.5)
     style.save(figure, folder, "e9_samplers")
 
 
-def front(points):
-    """Those that no other beats in both time and error."""
-    best, kept = math.inf, []
-    for point in sorted(points):
-        if point[1] < best:
-            best = point[1]
-            kept.append(point)
-    return kept
+def spread(data, scene, variant, value):
+    """Least and most over the seeds of each number of rays: where runs of 1, 4, 16, ... rays end."""
+    chosen = [r for r in data["final"] if (r["scene"], r["variant"]) == (scene, variant)]
+    groups = grouped(chosen, ["asked"], lambda r: (r["seconds"], over(r, value)))
+    points = [groups[key] for key in sorted(groups)]
+    middle = [tuple(quartiles(list(column))[1] for column in zip(*g)) for g in points]
+    return [m[0] for m in middle], [m[1] for m in middle], [min(v for _, v in g) for g in points], \
+        [max(v for _, v in g) for g in points]
 
 
-def drawChoices(folder, curves, curveOf):
-    scenes = [s for s in dict.fromkeys(r["scene"] for r in curves)
-              if any(r["scene"] == s and r["variant"] == "one impulse" for r in curves)]
+def drawMeasures(folder, data):
+    """RMSE, relMSE and FLIP of whole pictures over their seconds."""
+    scenes = data["scenes"][:4]
+    figure, axes = style.figure(len(MEASURES), len(scenes), 7.6, squeeze=False, sharex="col")
+    names = ["random", "stratified", "sobol"]
+    for row, (value, text) in zip(axes, MEASURES.items()):
+        for scene, axis in zip(scenes, row):
+            axis.set(xscale="log", yscale="log", title=shown(scene) if value == "rmse" else "",
+                     xlabel="seconds" if value == "flip" else "", ylabel=text if scene == scenes[0] else "")
+            for variant in names:
+                i = SAMPLERS.index(variant)
+                seconds, middle, low, high = spread(data, scene, variant, value)
+                style.draw(axis, i, seconds, middle, low, high, label=variant)
+            style.plainLog(axis.xaxis, (1, 3))
+            axis.tick_params(labelsize=8)
+    axes[0][0].legend(frameon=False, fontsize=8, loc="lower left")
+    style.save(figure, folder, "e9_measures")
+
+
+def drawSlopes(folder, data):
+    """A row for each sampler, a dot with its interval for each scene, lines where theory has them."""
+    figure, axes = style.figure(1, 2, 3.9, sharey=True, width_ratios=[1, 1])
+    for axis, value, factor in ((axes[0], "rmse", 1), (axes[1], "flip", 1)):
+        for i, scene in enumerate(data["scenes"]):
+            for row, variant in enumerate(reversed(SAMPLERS)):
+                found = slope(data, scene, variant, value)
+                if found is None:
+                    continue
+                at = row + 0.3 - 0.6 * i / max(len(data["scenes"]) - 1, 1)
+                axis.plot([found[0] - min(found[1], 1), found[0] + min(found[1], 1)], [at, at], linewidth=1,
+                          color=style.look(i)["color"])
+                axis.plot(found[0], at, markersize=5.5, markerfacecolor="white", label=shown(scene) if row == 0 else "",
+                          **{**style.look(i), "linestyle": "none"})
+        for at in THEORY:
+            axis.axvline(at, color=style.GREY, linewidth=1, linestyle=(0, (4, 3)), zorder=0)
+            axis.annotate(f"N^{at:g}", (at, 1), xycoords=("data", "axes fraction"), xytext=(0, 3), fontsize=8,
+                          textcoords="offset points", ha="center", color=style.GREY)
+        axis.set(xlabel=f"exponent of {MEASURES[value]}", ylim=(-0.5, len(SAMPLERS) - 0.5))
+        axis.set_yticks(range(len(SAMPLERS)), SAMPLERS[::-1])
+        axis.set_xlim(-1.5, -0.1)
+    # Adaptive pictures have no FLIP: there is room.
+    axes[1].legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=2, frameon=False, fontsize=8.5)
+    style.save(figure, folder, "e9_slopes")
+
+
+def drawChoices(folder, data):
+    names = dict.fromkeys(r["variant"] for r in data["looks"] if r["variant"].startswith((*BIASED, "one")))
+    scenes = [s for s in data["scenes"] if curve(data, s, "one impulse")]
     figure, axes = panels(scenes, 3.3)
     for scene, axis in axes.items():
-        axis.set(xscale="log", yscale="log", title=scene.replace("_", " "), xlabel="seconds of rendering",
-                 ylabel="RMSE over the mean")
-        names = [v for v in dict.fromkeys(r["variant"] for r in curves if r["scene"] == scene)
-                 if v == "sobol" or v.startswith(("depth", "one", "cut"))]
-        labels, points = style.EndLabels(axis), []
-        for i, variant in enumerate(names):
-            seconds, error = curveOf(curves, scene, variant, "seconds", "rmse")
+        labels = style.EndLabels(axis)
+        for i, variant in enumerate(["sobol", *names]):
+            points = curve(data, scene, variant)
+            if not points:
+                continue
+            _, seconds, error = zip(*points)
             style.draw(axis, i, seconds, error)
-            points += zip(seconds, error)
             labels.add(seconds[-1], error[-1], "all of it" if variant == "sobol" else variant, style.look(i)["color"])
-        best = front(points)
-        axis.plot([p[0] for p in best], [p[1] for p in best], color=style.GREY, linewidth=6, alpha=0.2,
+        best = [r for r in data["front"] if r["scene"] == scene]
+        axis.plot([r["seconds"] for r in best], [r["rmse"] for r in best], color=style.GREY, linewidth=6, alpha=0.2,
                   drawstyle="steps-post", zorder=0)
         labels.place(size=7.5)
     style.save(figure, folder, "e9_choices")
 
 
-def honest(rows, variant):
+def drawFloors(folder, data):
+    """What each choice leaves wrong whatever the rays, beside what 64 rays leave and what arithmetic does. Floors
+    within their own interval of 0 are none."""
+    causes = list(dict.fromkeys(r["cause"] for r in data["floors"]))
+    causes.sort(key=lambda c: -max(r["rmse"] for r in data["floors"] if r["cause"] == c))
+    figure, axis = style.figure(1, 1, 0.42 * len(causes) + 1.3)
+    looks = {scene: i for i, scene in enumerate(data["scenes"])}
+    values = {scene: {r["cause"]: r["rmse"] for r in data["floors"]
+                      if r["scene"] == scene and (r["rmse"] > r["half"] or math.isinf(r["half"]) and r["rmse"] > 0)}
+              for scene in data["scenes"]}
+    dots.draw(axis, causes, values, looks)
+    axis.set(xscale="log", xlabel="RMSE over the mean")
+    for scene, i in looks.items():
+        axis.plot([], [], markerfacecolor="white", label=shown(scene), **{**style.look(i), "linestyle": "none"})
+    legendBelow(axis, axis.get_legend_handles_labels())
+    style.save(figure, folder, "e9_floors")
+
+
+def segments(rows, end):
+    """Neighbours on the front of one variant, as [variant, from, to]: it is first until another has less error."""
+    found = []
+    for row, following in zip(rows, [*rows[1:], {"seconds": end}]):
+        if found and found[-1][0] == row["variant"]:
+            found[-1][2] = following["seconds"]
+        else:
+            found.append([row["variant"], row["seconds"], following["seconds"]])
+    return found
+
+
+def group(variant):
+    """Biased settings share a colour; their names stand in the figure."""
+    return next((b for b in BIASED if variant.startswith(b)), variant)
+
+
+def drawFront(folder, data):
+    """Which setting has the least error by which time: a bar for each scene."""
+    groups = ["random", "stratified", "sobol", "random, adaptive", "sobol, adaptive", "one impulse", "relaxed"]
+    figure, axis = style.figure(1, 1, 0.55 * len(data["scenes"]) + 1.6)
+    for row, scene in enumerate(reversed(data["scenes"])):
+        rows = [r for r in data["front"] if r["scene"] == scene]
+        for variant, start, end in segments(rows, rows[-1]["seconds"] * 1.3):
+            known = variant in groups
+            colour = style.look(groups.index(variant))["color"] if known else "#bbbbbb"
+            axis.barh(row, end - start, left=start, height=0.6, color=colour, edgecolor="white",
+                      label=variant if known else "biased: depth, cut-off")
+        for r in rows[:: max(len(rows) // 4, 1)]:
+            axis.annotate(f"{r['rmse']:.0e}", (r["seconds"], row - 0.3), (0, -1), textcoords="offset points",
+                          fontsize=6.5, va="top", color=style.GREY)
+    axis.set(xscale="log", xlabel="seconds of rendering (below: RMSE over the mean)")
+    axis.set_yticks(range(len(data["scenes"])), [shown(s) for s in reversed(data["scenes"])])
+    axis.set_ylim(-0.75, len(data["scenes"]) - 0.6)
+    style.plainLog(axis.xaxis)
+    legendBelow(axis, axis.get_legend_handles_labels())
+    style.save(figure, folder, "e9_front")
+
+
+def honest(rows):
     """(estimate, true RMSE), over the mean, of each look of each run."""
-    return [(r["estimate"] / r["mean"], r["rmse"] / r["mean"]) for r in rows
-            if r["variant"] == variant and r["estimate"] not in ("", 0) and r["rmse"] > 0]
+    return [(over(r, "estimate"), over(r, "rmse")) for r in rows if r["estimate"] not in ("", 0) and r["rmse"] > 0]
 
 
-def drawCalibration(folder, curves):
-    figure, (left, right) = style.figure(1, 2, 4.4, width_ratios=[1, 1])
+def drawRatios(axis, data, names):
+    """Nine tenths, half and median of all looks by sampler; the medians of the scenes as small dots below."""
+    for i, variant in enumerate(names):
+        row, look = len(names) - 1 - i, style.look(SAMPLERS.index(variant))
+        found = {r["scene"]: r for r in data["calibration"] if r["variant"] == variant}
+        everything = found.pop("all")
+        axis.plot([everything["p5"], everything["p95"]], [row, row], color=look["color"], linewidth=1.2)
+        axis.plot([everything["low"], everything["high"]], [row, row], color=look["color"], linewidth=5, alpha=0.5)
+        axis.plot([everything["median"]], [row], **{**look, "linestyle": "none"}, markersize=8)
+        axis.annotate(f"{everything['median']:.2f}", (everything["median"], row), (0, 9), textcoords="offset points",
+                      ha="center", fontsize=8.5)
+        for scene, r in found.items():
+            axis.plot(r["median"], row - 0.3, markersize=4, markerfacecolor="white",
+                      **{**style.look(data["scenes"].index(scene)), "linestyle": "none", "color": style.GREY},
+                      label=shown(scene) if i == 0 else "")
+    axis.set_yticks(range(len(names)), names[::-1])
+    axis.set_ylim(-0.6, len(names) - 0.4)
+    axis.axvline(1.0, color=style.GREY, linewidth=1)
+
+
+def drawCalibration(folder, data):
+    names = [v for v in SAMPLERS if v != "stratified"]
+    figure, (left, right) = style.figure(1, 2, 4.6, width_ratios=[1, 1])
     left.set(xscale="log", yscale="log", xlabel="estimated RMSE over the mean", ylabel="true RMSE over the mean",
              title="Each look of each run")
-    right.set(xscale="log", xlabel="true RMSE over the estimated one", title="Their ratio: median, half, nine tenths")
-    everything = [point for v in LINES for point in honest(curves, v)]
-    ends = [min(map(min, everything)), max(map(max, everything))]
+    right.set(xscale="log", xlabel="true RMSE over the estimated one", title="Half, nine tenths; scenes")
+    chosen = {v: honest([r for r in data["looks"] if r["variant"] == v]) for v in names}
+    ends = [f(f(p) for points in chosen.values() for p in points) for f in (min, max)]
     left.plot(ends, ends, color=style.GREY, linewidth=1)
-    for i, variant in enumerate(LINES):
-        points = honest(curves, variant)
-        left.plot(*zip(*points), **{**style.look(i), "linestyle": "none"}, markersize=4, markerfacecolor="none")
-        ratios = sorted(true / estimated for estimated, true in points)
-        low, middle, high = quartiles(ratios)
-        tenth = ratios[len(ratios) // 20], ratios[-1 - len(ratios) // 20]
-        row, look = len(LINES) - 1 - i, style.look(i)
-        right.plot(tenth, [row, row], color=look["color"], linewidth=1.2)
-        right.plot([low, high], [row, row], color=look["color"], linewidth=5, alpha=0.5)
-        right.plot([middle], [row], **{**look, "linestyle": "none"}, markersize=8)
-        right.annotate(f"{middle:.2f}", (middle, row), (0, 9), textcoords="offset points", ha="center", fontsize=8.5)
-    right.set_yticks(range(len(LINES)), LINES[::-1])
-    right.set_ylim(-0.6, len(LINES) - 0.4)
-    right.axvline(1.0, color=style.GREY, linewidth=1)
+    for variant, points in chosen.items():
+        left.plot(*zip(*points), **{**style.look(SAMPLERS.index(variant)), "linestyle": "none"}, markersize=4,
+                  markerfacecolor="none")
+    drawRatios(right, data, names)
+    style.plainLog(right.xaxis)
+    legendBelow(right, right.get_legend_handles_labels(), 3)
     style.save(figure, folder, "e9_calibration")
 
 
-def draw(folder, curves, final, curveOf):
-    drawSamplers(folder, curves, final, curveOf)
-    drawChoices(folder, curves, curveOf)
-    drawCalibration(folder, curves)
+def draw(folder, data):
+    for each in (drawSamplers, drawMeasures, drawSlopes, drawChoices, drawFloors, drawFront, drawCalibration):
+        each(folder, data)

@@ -79,6 +79,21 @@ def power(x, y):
                lambda at: factor * numpy.asarray(at, float)**a[1])
 
 
+def floor(n, squared, power=1.0):
+    """b and s of the mean squared error b² + s² n^-power: what no n removes, and what n = 1 adds to it. Relative errors,
+    as each square scatters in proportion to its own size; a floor below what the scatter lets see comes out as 0."""
+    line = linear(numpy.asarray(n, float) ** -power, squared, relative=True)
+    return math.sqrt(max(line.values[0], 0)), math.sqrt(max(line.values[1], 0))
+
+
+def across(values):
+    """Mean of independent values and the half-width of its 95 % interval: for numbers found once for each seed."""
+    values = numpy.asarray(values, float)
+    if len(values) < 2:
+        return float(values[0]), math.inf
+    return float(values.mean()), student(len(values) - 1) * float(values.std(ddof=1)) / math.sqrt(len(values))
+
+
 def straightEnd(x, y, tolerance=0.1, least=4):
     """Index from which on log y is straight in log x: leftwards from the last `least` points as long as the next one
     lies within the tolerance (relative) of the power law through those taken."""

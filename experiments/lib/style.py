@@ -4,6 +4,7 @@ be told apart in grey), labels at the ends of the lines instead of a legend, the
 import matplotlib
 
 matplotlib.use("Agg")
+import matplotlib.ticker  # noqa: E402
 import matplotlib.pyplot as pyplot  # noqa: E402  after the backend is chosen
 
 WIDTH = 9.0  # inches; 900 pixels wide on a page
@@ -37,6 +38,13 @@ def draw(axis, i, x, y, low=None, high=None, **options):
     axis.plot(x, y, **style)
     if low is not None:
         axis.vlines(x, low, high, color=style["color"], linewidth=3.5, alpha=0.3)
+
+
+def plainLog(axis, ticks=(1, 2, 5)):
+    """Ticks at these multiples of each power of ten, as plain numbers: for logarithmic axes of few decades."""
+    axis.set_major_locator(matplotlib.ticker.LogLocator(subs=ticks))
+    axis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+    axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
 
 
 class EndLabels:

@@ -134,6 +134,9 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
                     "how the nearest triangle is found");
   addChoice<Lanes>(c, "--lanes", s.lanes, {{"auto", Lanes::Auto}, {"1", Lanes::One}, {"16", Lanes::Sixteen}},
                    "rays that one work item searches for");
+  c.add_flag("--relaxed-arithmetic", s.relaxedArithmetic,
+             "shade with -cl-fast-relaxed-math; watertight surfaces, exact textures and the count of samples "
+             "that are not finite are not promised then [off]");
   c.add_flag("--keep-all-features", s.keepAllFeatures,
              "compile and run everything that no other option decides, needed or not");
   addText(c, "--keep-features",

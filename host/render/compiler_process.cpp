@@ -12,37 +12,34 @@
 #include "cl/device.h"
 
 namespace whittle {
-namespace {
 
 std::vector<std::string> commandLine(const CompilerJob& job) {
-  std::vector<std::string> words{kCompilerCommand,
-                                 std::to_string(job.device),
+  std::vector<std::string> words{std::to_string(job.device),
                                  std::to_string(job.features),
                                  std::to_string(job.target.compactChunk),
                                  std::to_string(job.target.workGroup),
+                                 std::to_string(static_cast<int>(job.target.relaxedArithmetic)),
                                  job.folder ? job.folder->string() : ""};
   words.insert(words.end(), job.stages.begin(), job.stages.end());
   return words;
 }
 
-CompilerJob jobOf(const std::vector<std::string>& words) {
-  constexpr std::size_t kNumbers = 5;
-  if (words.size() < kNumbers)
+CompilerJob compilerJob(const std::vector<std::string>& words) {
+  constexpr std::size_t kBeforeStages = 6;
+  if (words.size() < kBeforeStages)
     throw std::invalid_argument(std::string(kCompilerCommand) + ": for internal use");
   CompilerJob job;
   job.device = std::stoi(words[0]);
   job.features = std::stoull(words[1]);
-  job.target = {static_cast<std::uint32_t>(std::stoul(words[2])), std::stoi(words[3])};
-  if (!words[4].empty()) job.folder = words[4];
-  job.stages.assign(words.begin() + kNumbers, words.end());
+  job.target = {static_cast<std::uint32_t>(std::stoul(words[2])), std::stoi(words[3]), words[4] != "0"};
+  if (!words[5].empty()) job.folder = words[5];
+  job.stages.assign(words.begin() + kBeforeStages, words.end());
   return job;
 }
 
-}  // namespace
-
 std::function<void()> startCompilerProcess(const std::filesystem::path& binary, const CompilerJob& job) {
   std::vector<std::string> words = commandLine(job);
-  words.insert(words.begin(), binary.string());
+  words.insert(words.begin(), {binary.string(), kCompilerCommand});
   std::vector<char*> pointers;
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -61,7 +58,7 @@ std::function<void()> startCompilerProcess(const std::filesystem::path& binary, 
 }
 
 void compilerProcessMain(const std::vector<std::string>& arguments) {
-  const CompilerJob job = jobOf(arguments);
+  const CompilerJob job = compilerJob(arguments);
   const auto programs = kernelPrograms(SceneFeatures::ofBits(job.features), job.stages, job.folder);
   Compute compute(selectDevice(listDevices(), std::to_string(job.device)));
   for (std::size_t i = 1; i < programs.size(); ++i) compileProgram(compute, programs[i], job.target);

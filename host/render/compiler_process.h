@@ -24,6 +24,10 @@ struct CompilerJob {
 /// First word of its command line; no command for people.
 inline constexpr const char* kCompilerCommand = "compile-kernels";
 
+/// The job as words behind kCompilerCommand, and back; throws std::invalid_argument for too few.
+std::vector<std::string> commandLine(const CompilerJob& job);
+CompilerJob compilerJob(const std::vector<std::string>& words);
+
 /// Starts `binary` on all programs of the job but the first. Returns what waits for its end; whatever goes
 /// wrong there goes wrong again, and is said, when its work is done once more here. Nothing is started where
 /// that fails.

@@ -22,13 +22,14 @@ struct Part {
   const char* name;
   std::vector<std::string> files;
   std::vector<std::string> kernels;
+  bool mayRelax = false;  ///< see CompileTarget::relaxedArithmetic
 };
 
 /// Every stage in one of them; the one that takes longest to compile first.
 const std::vector<Part>& parts() {
   static const std::vector<Part> all{
       {"searches", {"intersect.cl", "occlude.cl"}, {"intersect", "occlude"}},
-      {"shading", {"shade.cl"}, {"shade", "shade_light"}},
+      {"shading", {"shade.cl"}, {"shade", "shade_light"}, true},
       {"queues",
        {"raygen.cl", "compact.cl", "accumulate.cl", "film.cl"},
        {"raygen", "compact_count", "scan_chunks", "compact_shadow", "compact_impulse", "find_long_runs",
@@ -83,6 +84,7 @@ std::vector<KernelProgram> kernelPrograms(const SceneFeatures& features,
         program.kernels.push_back(stage);
     if (program.kernels.empty()) continue;
     program.name = part.name;
+    program.mayRelax = part.mayRelax;
     program.source = assembleKernelSource(part.files, folder);
     program.features = askedFeatures(program.source, features.bits());
     programs.push_back(std::move(program));
@@ -90,11 +92,14 @@ std::vector<KernelProgram> kernelPrograms(const SceneFeatures& features,
   return programs;
 }
 
+std::string buildOptions(const KernelProgram& program, const CompileTarget& target) {
+  return fmt::format("-cl-std=CL1.2 -cl-kernel-arg-info -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}{}",
+                     program.features, target.compactChunk,
+                     target.relaxedArithmetic && program.mayRelax ? " -cl-fast-relaxed-math" : "");
+}
+
 cl::Program compileProgram(Compute& compute, const KernelProgram& program, const CompileTarget& target) {
-  const std::string options =
-      fmt::format("-cl-std=CL1.2 -cl-kernel-arg-info -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}",
-                  program.features, target.compactChunk);
-  cl::Program built = compute.build(program.source, options,
+  cl::Program built = compute.build(program.source, buildOptions(program, target),
                                     fmt::format("{} ({})", program.name, fmt::join(program.kernels, ", ")));
   for (const auto& name : program.kernels)
     clTry("compiling kernel '" + name + "' for " + compute.device().name, [&] {

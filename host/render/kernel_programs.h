@@ -21,6 +21,7 @@ struct KernelProgram {
   std::string source;                ///< includes resolved
   std::uint64_t features = 0;        ///< those of the scene's that the source asks for
   std::vector<std::string> kernels;  ///< that will be launched, in the order of their first launch
+  bool mayRelax = false;             ///< see CompileTarget::relaxedArithmetic
 };
 
 /// The programs for `features`, without those of which no kernel is among `stages`. `folder`: kernels from
@@ -33,7 +34,14 @@ std::vector<KernelProgram> kernelPrograms(const SceneFeatures& features,
 struct CompileTarget {
   std::uint32_t compactChunk = 0;  ///< see COMPACT_CHUNK
   int workGroup = 0;               ///< work items of every launch
+  /// Shading is built with -cl-fast-relaxed-math: no value is NaN or infinite, sums may be reordered,
+  /// divisions and roots lose a bit or two. Never the others: the searches would no longer agree with each
+  /// other, and the film's compensated sums would be folded into plain ones.
+  bool relaxedArithmetic = false;
 };
+
+/// What the compiler is told besides the program's text.
+std::string buildOptions(const KernelProgram& program, const CompileTarget& target);
 
 /// Compiles down to the device's code, which many platforms, PoCL among them, put off to a kernel's first
 /// launch. Throws ClError with the build log.

@@ -160,7 +160,7 @@ class Session {
     const auto start = Clock::now();
     auto programs = std::async(std::launch::async, [this, start] {
       const auto stages = plannedStages(features_, use_.lights.size(), settings_.bounces);
-      const CompileTarget target{compactChunk_, workGroup_};
+      const CompileTarget target{compactChunk_, workGroup_, settings_.relaxedArithmetic};
       CompileBeside beside;
       if (!hooks_.compiler.empty())
         beside = [&] {

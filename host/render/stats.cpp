@@ -52,6 +52,7 @@ nlohmann::ordered_json settingsToJson(const Settings& s) {
           {"workGroup", s.workGroup},
           {"bump", s.bump ? nlohmann::ordered_json(jsonFloat(*s.bump)) : nlohmann::ordered_json(nullptr)},
           {"mirrorRoughness", jsonFloat(s.mirrorRoughness)},
+          {"relaxedArithmetic", s.relaxedArithmetic},
           {"keepAllFeatures", s.keepAllFeatures},
           {"keepFeatures", keptFeatures(s)},
           {"adaptive", s.adaptive},

@@ -27,12 +27,13 @@ struct Settings {
   Lanes lanes =
       Lanes::Auto;  ///< rays for each work item of the searches; auto: eight on a CPU, one elsewhere
   ImpulseMode impulses = ImpulseMode::All;
-  std::string device;            ///< selector; empty: the first usable device, CPU first
-  int threads = 0;               ///< CPU devices; 0: all
-  int wavefront = 1 << 18;       ///< rays in flight
-  int workGroup = 0;             ///< work items; 0: chosen for the device
-  std::optional<float> bump;     ///< metres; unset: derived from the scene at each hit
-  float mirrorRoughness = 0.2F;  ///< a surface smoother than this reflects and refracts as a mirror
+  std::string device;              ///< selector; empty: the first usable device, CPU first
+  int threads = 0;                 ///< CPU devices; 0: all
+  int wavefront = 1 << 18;         ///< rays in flight
+  int workGroup = 0;               ///< work items; 0: chosen for the device
+  std::optional<float> bump;       ///< metres; unset: derived from the scene at each hit
+  float mirrorRoughness = 0.2F;    ///< a surface smoother than this reflects and refracts as a mirror
+  bool relaxedArithmetic = false;  ///< shading alone is compiled with -cl-fast-relaxed-math
   bool keepAllFeatures = false;
   std::uint64_t keepFeatures = 0;  ///< bits of kernels/shared/features.h that are kept, needed or not
   bool adaptive = false;           ///< more samples where the picture's error is; raysPerPixel on average

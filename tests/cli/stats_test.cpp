@@ -38,12 +38,15 @@ TEST(Stats, HoldsEveryKeyOfTheContract) {
               "memory", "error", "biasBound", "meanRadiance", "nonFinite", "dropped"},
              "top");
   expectKeys(s["scene"], {"file", "triangles", "materials", "lights", "textures"}, "scene");
-  expectKeys(s["settings"],
-             {"output",       "width",   "height",    "camera",    "exposure",    "bounces",
-              "raysPerPixel", "shadows", "search",    "sampler",   "seed",        "impulses",
-              "device",       "threads", "wavefront", "workGroup", "bump",        "keepAllFeatures",
-              "stats",        "profile", "trace",     "reference", "targetError", "timeLimit",
-              "aov",          "quiet"},
+  expectKeys(s["settings"], {"output",       "width",       "height",
+                             "camera",       "exposure",    "bounces",
+                             "raysPerPixel", "shadows",     "search",
+                             "sampler",      "seed",        "impulses",
+                             "device",       "threads",     "wavefront",
+                             "workGroup",    "bump",        "keepAllFeatures",
+                             "stats",        "profile",     "trace",
+                             "reference",    "targetError", "timeLimit",
+                             "aov",          "quiet",       "relaxedArithmetic"},
              "settings");
   expectKeys(s["device"], {"platform", "name", "version", "driver", "computeUnits", "threads"}, "device");
   expectKeys(s["features"], {"used", "kept", "leftOut"}, "features");

@@ -52,6 +52,30 @@ class Lines(unittest.TestCase):
         self.assertEqual(fit.straightEnd(x, 7 * x), 0)
 
 
+class Errors(unittest.TestCase):
+    def test_the_floor_of_an_error_is_found(self):
+        random, n = numpy.random.default_rng(5), 2.0 ** numpy.arange(8)
+        for power in (1.0, 1.5):
+            squares = 0.02**2 + 0.1**2 * n**-power
+            numpy.testing.assert_allclose(fit.floor(n, squares, power), [0.02, 0.1], rtol=1e-9)
+            found = [fit.floor(n, squares * numpy.exp(random.normal(0, 0.05, len(n))), power) for _ in range(100)]
+            # Squares that scatter by 5 % leave the floor to some 5 %; the mean of a hundred to a tenth of that, and
+            # least squares of relative errors are low by about the variance of the scatter.
+            numpy.testing.assert_allclose(numpy.mean(found, axis=0), [0.02, 0.1], rtol=0.02)
+
+    def test_an_error_without_a_floor_has_none(self):
+        n = 2.0 ** numpy.arange(8)
+        self.assertLess(fit.floor(n, 0.01 / n)[0], 1e-9)
+
+    def test_the_interval_of_a_mean_holds_it_in_95_percent(self):
+        random, trials, held = numpy.random.default_rng(6), 4000, 0
+        for _ in range(trials):
+            mean, half = fit.across(random.normal(3, 1, 5))
+            held += abs(mean - 3) <= half
+        # Binomial, as above: 0.34 %; four of them.
+        self.assertLess(abs(held / trials - 0.95), 0.014)
+
+
 class Bends(unittest.TestCase):
     def test_a_bend_is_found_with_its_slopes(self):
         random, x = numpy.random.default_rng(2), numpy.linspace(0, 20, 41)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "render/asked_features.h"
+#include "render/compiler_process.h"
 #include "render/plan.h"
 #include "support/test_device.h"
 
@@ -117,6 +118,30 @@ TEST(KernelPrograms, ShadingAloneAsksHowSurfacesLook) {
   ASSERT_EQ(one.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(one[i].features == two[i].features, one[i].name != "shading") << one[i].name;
+}
+
+/// Searches must agree with each other to the bit, and the film's compensated sums must stay.
+TEST(KernelPrograms, ShadingAloneIsRelaxedAndOnlyWhenAskedFor) {
+  const SceneFeatures all = SceneFeatures::ofBits(~std::uint64_t{0} >> 1);
+  for (const auto& program : kernelPrograms(all, plannedStages(all, 2, 16))) {
+    const std::string strict = buildOptions(program, {1024, 8}),
+                      relaxed = buildOptions(program, {1024, 8, true});
+    EXPECT_EQ(strict.find("relaxed"), std::string::npos) << strict;
+    EXPECT_EQ(relaxed, strict + (program.name == "shading" ? " -cl-fast-relaxed-math" : "")) << program.name;
+  }
+}
+
+TEST(KernelPrograms, TheCompilerProcessIsToldEverything) {
+  const CompilerJob job{3, 0xabcdef0123456789, {1024, 8, true}, "a folder", {"shade", "film"}};
+  const CompilerJob heard = compilerJob(commandLine(job));
+  EXPECT_EQ(heard.device, job.device);
+  EXPECT_EQ(heard.features, job.features);
+  EXPECT_EQ(heard.target.compactChunk, job.target.compactChunk);
+  EXPECT_EQ(heard.target.workGroup, job.target.workGroup);
+  EXPECT_TRUE(heard.target.relaxedArithmetic);
+  EXPECT_EQ(heard.folder, job.folder);
+  EXPECT_EQ(heard.stages, job.stages);
+  EXPECT_FALSE(compilerJob(commandLine({0, 0, {32, 64}, {}, {}})).target.relaxedArithmetic);
 }
 
 TEST(KernelPrograms, OthersAreCompiledBesideOnlyWhereThatTakesAWhile) {

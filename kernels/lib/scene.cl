@@ -25,13 +25,13 @@ typedef struct {
 
 #define SCENE_PARAMS                                                                                         \
   __global const Node *nodes, __global const DeviceTriangle *triangles, __global const uint *corners,       \
-      __global const uint *wideCorners, __global const float *normals, __global const float *tangents, __global const float *uv0,             \
-      __global const float *uv1, __global const float *colors, __global const DeviceMaterial *materials,    \
-      __global const DeviceTexture *textures, __global const uint *texels,                                  \
-      __global const float *linearFromSrgb, __global const DeviceLight *lights,                             \
+      __global const uint *wideCorners, __global const float *normals, __global const float *tangents,      \
+      __global const float *uv0, __global const float *uv1, __global const float *colors,                   \
+      __global const DeviceMaterial *materials, __global const DeviceTexture *textures,                     \
+      __global const uint *texels, __global const float *linearFromSrgb, __global const DeviceLight *lights, \
       __global const float *backgroundMap, __global const float *wideNodes, __global const float *leaves,   \
       const uint triangleCount
 
 #define SCENE_VIEW                                                                                           \
-  {nodes, triangles, corners, wideCorners, normals, tangents, uv0, uv1, colors, materials, textures, texels,              \
+  {nodes, triangles, corners, wideCorners, normals, tangents, uv0, uv1, colors, materials, textures, texels, \
    linearFromSrgb, lights, backgroundMap, wideNodes, leaves, triangleCount}

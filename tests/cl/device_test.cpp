@@ -59,6 +59,15 @@ TEST(SelectDevice, ByIndexNameKindOrNothing) {
   EXPECT_EQ(selectDevice(gpus, "").index, 1) << "without a CPU the first usable one";
 }
 
+TEST(DeviceInfo, PacketsSuitProcessorsWithVectors) {
+  DeviceInfo info = device(0, "Beta Platform", "Generic Processor", "cpu");
+  EXPECT_FALSE(info.suitsPackets()) << "vectors of one float";
+  info.floatLanes = 4;
+  EXPECT_TRUE(info.suitsPackets());
+  info.kind = "gpu";
+  EXPECT_FALSE(info.suitsPackets());
+}
+
 TEST(SelectDevice, RefusalsSayWhy) {
   const DeviceList list = someDevices();
   for (const char* selector : {"4", "99999999999999999999", "-1", "toaster", "accelerator"}) {

@@ -7,9 +7,9 @@
 namespace whittle {
 namespace {
 
-using test::kSearchForms;
 using test::SearchBench;
 using test::SearchForm;
+using test::searchForms;
 using test::SearchLab;
 
 std::string refusal(SearchLab& lab, const Scene& scene, const SearchForm& form) {
@@ -27,14 +27,14 @@ TEST(SceneLimit, EveryFormSaysWhichBufferAndBothNumbers) {
   DeviceInfo small = lab.compute.device();
   small.largestBuffer = 65536;
   lab.compute = Compute(small);
-  for (const SearchForm& form : kSearchForms) {
+  for (const SearchForm& form : searchForms()) {
     const std::string said = refusal(lab, scene, form);
     const auto has = [&](const std::string& part) { return said.find(part) != std::string::npos; };
     EXPECT_TRUE(has("buffer '") && has(" needs ") && has("65.5 kB (65536 bytes)") && has(small.name))
         << form.name << ": " << said;
     EXPECT_FALSE(has("\n")) << form.name << ": " << said;
   }
-  const std::string array = refusal(lab, scene, kSearchForms[0]);
+  const std::string array = refusal(lab, scene, searchForms()[0]);
   EXPECT_NE(array.find(fmt::format("'triangles' needs {} ({} bytes)", formatBytes(3201 * 48), 3201 * 48)),
             std::string::npos)
       << array;

@@ -8,8 +8,8 @@
 namespace whittle {
 namespace {
 
-using test::kSearchForms;
 using test::SearchBench;
+using test::searchForms;
 using test::SearchLab;
 using test::TestHit;
 using test::TestRay;
@@ -45,7 +45,7 @@ std::vector<TestRay> mixedRays(std::size_t count, std::uint64_t seed) {
 /// All forms agree bit by bit; returns the answers.
 std::vector<TestHit> agreedHits(SearchLab& lab, const Scene& scene, const std::vector<TestRay>& rays) {
   std::vector<TestHit> expected;
-  for (const auto& form : kSearchForms) {
+  for (const auto& form : searchForms()) {
     SearchBench bench(lab, scene, form);
     const auto hits = bench.nearest(rays);
     if (expected.empty()) expected = hits;

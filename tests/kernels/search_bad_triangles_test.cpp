@@ -10,8 +10,8 @@
 namespace whittle {
 namespace {
 
-using test::kSearchForms;
 using test::SearchBench;
+using test::searchForms;
 using test::SearchLab;
 using test::TestHit;
 using test::TestRay;
@@ -86,7 +86,7 @@ void expectSameAnswers(SearchLab& lab, const Scene& good, const Scene& all,
                        const std::vector<std::int64_t>& goodOf) {
   const auto rays = someRays();
   const std::vector<float> lengths(rays.size(), 0.7F);
-  for (const auto& form : kSearchForms) {
+  for (const auto& form : searchForms()) {
     SearchBench expected(lab, good, form), found(lab, all, form);
     const auto a = expected.nearest(rays);
     auto b = found.nearest(rays);

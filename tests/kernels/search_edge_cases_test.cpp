@@ -10,9 +10,9 @@
 namespace whittle {
 namespace {
 
-using test::kSearchForms;
 using test::SearchBench;
 using test::SearchForm;
+using test::searchForms;
 using test::SearchLab;
 using test::TestHit;
 using test::TestRay;
@@ -37,7 +37,7 @@ TEST(EdgeCases, SliversAreNotHit) {
     const glm::vec3 o = a + 100.0F * rng.direction();
     rays.push_back({o, glm::normalize(a + rng.unit() * (b - a) - o)});
   }
-  for (const SearchForm& form : kSearchForms) {
+  for (const SearchForm& form : searchForms()) {
     const auto hits = SearchBench(lab, scene, form).nearest(rays);
     const auto met =
         std::count_if(hits.begin(), hits.end(), [](const TestHit& h) { return h.primitive >= 0; });
@@ -95,9 +95,9 @@ std::size_t againstOwn(SearchLab& lab, const test::TriangleMesh& mesh, const std
     test::TriangleMesh alone;
     alone.add(mesh.positions[3 * triangle], mesh.positions[3 * triangle + 1],
               mesh.positions[3 * triangle + 2]);
-    for (std::size_t f = 0; f < kSearchForms.size(); ++f) {
+    for (std::size_t f = 0; f < searchForms().size(); ++f) {
       if (f > 0 && triangle % 3 != f % 3) continue;
-      SearchBench bench(lab, test::sceneOf(alone), kSearchForms[f], kSurfelKernel);
+      SearchBench bench(lab, test::sceneOf(alone), searchForms()[f], kSurfelKernel);
       for (const TestHit& h : bench.nearest(mine)) again += h.primitive >= 0;
       for (const bool o : bench.occluded(mine, std::vector<float>(mine.size(), 1e30F))) again += o;
     }
@@ -125,7 +125,7 @@ TEST(EdgeCases, NoReintersection) {
       rays.push_back({glm::vec3(o), glm::vec3(glm::normalize(target - o))});
     }
     const Scene scene = test::sceneOf(mesh);
-    SearchBench bench(lab, scene, kSearchForms[0], kSurfelKernel);
+    SearchBench bench(lab, scene, searchForms()[0], kSurfelKernel);
     // Each triangle alone: the hit of its own ray, found in a scene that holds nothing else.
     std::size_t hit = 0, spawned = 0;
     std::vector<std::uint32_t> own;
@@ -197,7 +197,7 @@ TEST(EdgeCases, NonFiniteRaysEndAndHarmNobody) {
     allBad.push_back(spoiled(allGood[i], rng));
     allMixed.push_back(i % 3 ? allGood[i] : allBad[i]);
   }
-  for (const SearchForm& form : kSearchForms) {
+  for (const SearchForm& form : searchForms()) {
     SCOPED_TRACE(form.name);
     const std::size_t count = form.search == Search::Array ? 403 : allGood.size();
     const auto some = [&](const std::vector<TestRay>& rays) {
@@ -248,7 +248,7 @@ TEST(EdgeCases, OddLengthsOfShadowRays) {
     far.push_back(1e30F);
     odd.push_back(lengths[i % 6]);
   }
-  for (const SearchForm& form : kSearchForms) {
+  for (const SearchForm& form : searchForms()) {
     SearchBench bench(lab, scene, form);
     const auto expected = bench.occluded(rays, far), found = bench.occluded(rays, odd);
     std::size_t wrong = 0;
@@ -270,7 +270,7 @@ TEST(EdgeCases, TeapotInAStadium) {
     all.push_back({o, glm::normalize(glm::vec3(0.3F, 0.2F, -0.1F) + rng.inBox(0.008F) - o)});
   }
   const Scene alone = test::sceneOf(detail), stadium = test::sceneOf(both);
-  for (const SearchForm& form : kSearchForms) {
+  for (const SearchForm& form : searchForms()) {
     std::vector<TestRay> rays = all;
     if (form.search == Search::Array) rays.resize(203);  // 90 000 triangles, one after another
     SearchBench detailBench(lab, alone, form), stadiumBench(lab, stadium, form);

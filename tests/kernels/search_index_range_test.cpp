@@ -11,9 +11,9 @@
 namespace whittle {
 namespace {
 
-using test::kSearchForms;
 using test::SearchBench;
 using test::SearchForm;
+using test::searchForms;
 using test::SearchLab;
 using test::TestRay;
 
@@ -119,7 +119,7 @@ TEST(IndexRange, ExactAtTheFarEndOfTheLargestScene) {
     rays.push_back({o, glm::normalize(glm::vec3(at.x, 0, at.z) - o)});
   }
   const std::vector<float> lengths(rays.size(), 1.5F);
-  for (const SearchForm& form : kSearchForms) {
+  for (const SearchForm& form : searchForms()) {
     if (form.search == Search::Array) continue;  // would walk over all 2^27
     SCOPED_TRACE(form.name);
     SearchBench bench(lab, scene, form);

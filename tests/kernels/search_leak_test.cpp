@@ -14,9 +14,9 @@ namespace whittle {
 namespace {
 
 using test::ClosedMesh;
-using test::kSearchForms;
 using test::SearchBench;
 using test::SearchForm;
+using test::searchForms;
 using test::SearchLab;
 using test::TestHit;
 using test::TestRay;
@@ -82,20 +82,20 @@ TEST(Leaks, NoRayLeavesAClosedMesh) {
   ASSERT_TRUE(total >= 1 && total <= 1e12) << "WHITTLE_LEAK_RAYS=" << asked;
   const std::size_t batch = total > 10 * kShortRun ? kLongBatch : kShortBatch;
   SearchLab lab;
-  std::vector<LeakCount> counts(kSearchForms.size());
+  std::vector<LeakCount> counts(searchForms().size());
   for (std::uint64_t index = 0; static_cast<double>(counts[0].rays) < total; ++index) {
     const ClosedMesh mesh = test::randomClosedMesh(index);
     ASSERT_FALSE(test::hasSeam(mesh.mesh)) << index;
     test::Rng rng(index);
     const auto rays = raysFromInside(mesh, batch, rng);
-    for (std::size_t f = 0; f < kSearchForms.size(); ++f)
-      countLeaks(lab, kSearchForms[f], mesh, index, rays, counts[f]);
+    for (std::size_t f = 0; f < searchForms().size(); ++f)
+      countLeaks(lab, searchForms()[f], mesh, index, rays, counts[f]);
   }
-  for (std::size_t f = 0; f < kSearchForms.size(); ++f) {
+  for (std::size_t f = 0; f < searchForms().size(); ++f) {
     const LeakCount& c = counts[f];
-    EXPECT_EQ(c.leaks, 0U) << kSearchForms[f].name << " of " << c.rays << " rays";
+    EXPECT_EQ(c.leaks, 0U) << searchForms()[f].name << " of " << c.rays << " rays";
     // The lines that experiments/leaks.sh collects.
-    if (asked) fmt::print("leaks\t{}\t{}\t{}\t{:.1f}\n", kSearchForms[f].name, c.rays, c.leaks, c.seconds);
+    if (asked) fmt::print("leaks\t{}\t{}\t{}\t{:.1f}\n", searchForms()[f].name, c.rays, c.leaks, c.seconds);
   }
 }
 

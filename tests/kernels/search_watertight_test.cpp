@@ -8,9 +8,9 @@
 namespace whittle {
 namespace {
 
-using test::kSearchForms;
 using test::SearchBench;
 using test::SearchForm;
+using test::searchForms;
 using test::SearchLab;
 using test::TestHit;
 using test::TestRay;
@@ -24,7 +24,7 @@ std::size_t misses(const std::vector<TestHit>& hits) {
 void expectNoMiss(SearchLab& lab, const test::TriangleMesh& mesh, const std::vector<TestRay>& all,
                   std::size_t arrayRays, const char* id, const std::string& construction) {
   const Scene scene = test::sceneOf(mesh);
-  for (const SearchForm& form : kSearchForms) {
+  for (const SearchForm& form : searchForms()) {
     std::vector<TestRay> rays = all;
     if (form.search == Search::Array) rays.resize(std::min(rays.size(), arrayRays));
     SearchBench bench(lab, scene, form);
@@ -94,7 +94,7 @@ TEST(Watertight, TreeAndArrayAgreeAtOutermostCorners) {
       rays.push_back({o, glm::normalize(a + (i % 2 ? 0.0F : rng.unit()) * (b - a) - o)});
     }
     std::vector<TestHit> expected;
-    for (const SearchForm& form : kSearchForms) {
+    for (const SearchForm& form : searchForms()) {
       const auto hits = SearchBench(lab, scene, form).nearest(rays);
       if (expected.empty()) expected = hits;
       std::size_t different = 0;
@@ -152,7 +152,7 @@ TEST(AxisAligned, SameTrianglesAsExactArithmetic) {
       if (h.t > 0 && (!best || h.t < best->t)) best = &h;
     expected.push_back(best ? best->primitive : -1);
   }
-  for (const SearchForm& form : kSearchForms) {
+  for (const SearchForm& form : searchForms()) {
     SearchBench bench(lab, scene, form);
     const auto hits = bench.nearest(rays);
     std::size_t wrong = 0;

@@ -50,13 +50,13 @@ struct Views {
 /// Renders in every form; fails where one has other bits, loses rays or counts other samples as not finite.
 inline Views everyForm(const Scene& scene, const Settings& settings) {
   Views views;
-  for (const SearchForm& form : kSearchForms) {
+  for (const SearchForm& form : searchForms()) {
     Settings own = settings;
     own.search = form.search;
     own.lanes = form.lanes;
     RenderResult result = renderOnDevice(scene, own);
     EXPECT_EQ(result.stats.dropped, 0U) << form.name;
-    if (&form == kSearchForms.data()) {
+    if (&form == searchForms().data()) {
       views.kernel = std::move(result);
       continue;
     }

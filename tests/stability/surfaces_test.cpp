@@ -193,7 +193,7 @@ TEST(CaseSurfaces, ANeedleIsMetAndNothingBesideIt) {
     rays.push_back({at - d, d});
     expected.push_back(-2);  // by the judge: its width is that of rounding
   }
-  for (const SearchForm& form : kSearchForms) {
+  for (const SearchForm& form : searchForms()) {
     const auto hits = SearchBench(lab, scene, form).nearest(rays);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < rays.size(); ++i)

@@ -2,10 +2,10 @@
 // search, and a brute force in double precision to judge them by.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "kernels/shared/layout.h"
 #include "render/device_scene.h"
@@ -19,10 +19,18 @@ struct SearchForm {
   Search search;
   Lanes lanes;
 };
-inline constexpr std::array kSearchForms{SearchForm{"single/array", Search::Array, Lanes::One},
-                                         SearchForm{"single/tree", Search::Tree, Lanes::One},
-                                         SearchForm{"packet/array", Search::Array, Lanes::Sixteen},
-                                         SearchForm{"packet/tree", Search::Tree, Lanes::Sixteen}};
+/// Those that the device under test is given by the renderer: packets only where they suit it.
+inline const std::vector<SearchForm>& searchForms() {
+  static const std::vector<SearchForm> forms = [] {
+    std::vector<SearchForm> all{{"single/array", Search::Array, Lanes::One},
+                                {"single/tree", Search::Tree, Lanes::One},
+                                {"packet/array", Search::Array, Lanes::Sixteen},
+                                {"packet/tree", Search::Tree, Lanes::Sixteen}};
+    if (!testDevice().suitsPackets()) all.resize(2);
+    return all;
+  }();
+  return forms;
+}
 
 struct TestRay {
   glm::vec3 o, d;

@@ -12,11 +12,13 @@
 
 namespace whittle::test {
 
-/// Opens the device under test; throws with a message if there is none.
-inline Compute openTestDevice() {
+/// The device under test; throws with a message if there is none.
+inline DeviceInfo testDevice() {
   const char* selector = std::getenv("WHITTLE_TEST_DEVICE");
-  return Compute(selectDevice(listDevices(), selector ? selector : ""));
+  return selectDevice(listDevices(), selector ? selector : "");
 }
+
+inline Compute openTestDevice() { return Compute(testDevice()); }
 
 /// Where the kernels under test come from; nothing: the binary.
 inline std::optional<std::filesystem::path> testKernelFolder() {

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Where a picture begins to go wrong as one thing grows or shrinks: the Cornell box scaled, moved, brightened, and with
-many lamps for one, each against the picture that it should still be. One line of tab-separated values
-for each step: RMSE over the mean radiance (a brighter picture is divided by its factor first), samples that were not
-finite, triangles that were dropped, rays over the rays of the first picture, seconds of rendering, the first warning
-or the error.
+many lamps for one, each against the picture that it should still be. One line of tab-separated values for each step: RMSE
+over the mean radiance (a brighter picture is divided by its factor first), the same against double precision on the same
+triangles (where the scene is moved: the floats of its file move, too), samples that were not finite, triangles that were
+dropped, rays over the rays of the first picture, seconds of rendering, the first warning or the error.
 
 usage: experiments/limits.py [--whittle FILE] [--sweep NAME]...   (default: all of them)
 needs: Debian's python3-numpy and python3-openimageio; /usr/bin/python3
@@ -95,10 +95,9 @@ def changed(sweep, factor):
     return document, binary
 
 
-def render(whittle, folder, sweep, factor):
+def render(whittle, folder, command="render"):
     """Radiance [h, w, 3] or None, statistics, first line of standard error."""
-    write(folder / "scene.glb", *changed(sweep, factor))
-    done = subprocess.run([whittle, "render", folder / "scene.glb", "--width", "64", "--height", "36", "--quiet",
+    done = subprocess.run([whittle, command, folder / "scene.glb", "--width", "64", "--height", "36", "--quiet",
                            "-o", folder / "picture.exr", "--stats", "-"], capture_output=True, text=True)
     said = (done.stderr.strip().split("\n") or [""])[0]
     if done.returncode != 0:
@@ -107,13 +106,18 @@ def render(whittle, folder, sweep, factor):
     return image.get_pixels(OpenImageIO.FLOAT).astype(float)[..., :3], json.loads(done.stdout), said
 
 
-def line(step, base, found, factor):
+def distance(picture, right):
+    """RMSE over the mean, as text."""
+    with numpy.errstate(all="ignore"):
+        return f"{numpy.sqrt(((picture - right)**2).mean()) / right.mean():.2e}"
+
+
+def line(step, base, found, factor, double):
     (picture, stats, said), (right, rightStats, _) = found, base
     if picture is None:
-        return f"{step}\t\t\t\t\t\t{said}"
-    with numpy.errstate(all="ignore"):
-        rmse = numpy.sqrt(((picture / factor - right)**2).mean()) / right.mean()
-    return (f"{step}\t{rmse:.2e}\t{stats['nonFinite']}\t{stats['scene'].get('droppedTriangles', 0)}\t"
+        return f"{step}\t\t\t\t\t\t\t{said}"
+    beside = "" if double is None else distance(picture, double)
+    return (f"{step}\t{distance(picture / factor, right)}\t{beside}\t{stats['nonFinite']}\t{stats['scene'].get('droppedTriangles', 0)}\t"
             f"{stats['rays']['total'] / rightStats['rays']['total']:.4f}\t{stats['time']['render']:.3f}\t{said}")
 
 
@@ -122,15 +126,18 @@ def main():
     parser.add_argument("--whittle", default=str(ROOT / "build/release/whittle"))
     parser.add_argument("--sweep", action="append", choices=list(POWERS))
     args = parser.parse_args()
-    print("sweep\tfactor\trmse/mean\tnonFinite\tdropped\trays\tseconds\tsaid")
+    print("sweep\tfactor\trmse/mean\trmse/mean to double\tnonFinite\tdropped\trays\tseconds\tsaid")
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         for sweep in args.sweep or POWERS:
-            base = render(args.whittle, folder, "nothing", 1.0)
+            write(folder / "scene.glb", *parts())
+            base = render(args.whittle, folder)
             for power in POWERS[sweep]:
-                found = render(args.whittle, folder, sweep, 10.0**power)
+                write(folder / "scene.glb", *changed(sweep, 10.0**power))
+                found = render(args.whittle, folder)
+                double = render(args.whittle, folder, "reference")[0] if sweep == "distance" else None
                 brightness = 10.0**power if sweep == "intensity" else 1.0
-                print(line(f"{sweep}\t1e{power}", base, found, brightness), flush=True)
+                print(line(f"{sweep}\t1e{power}", base, found, brightness, double), flush=True)
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ struct Settings {
   Sampler sampler = Sampler::Random;
   std::uint32_t seed = 0;
   Lanes lanes =
-      Lanes::Auto;  ///< rays for each work item of the searches; auto: eight on a CPU, one elsewhere
+      Lanes::Auto;  ///< rays for each work item of the searches; auto: sixteen where packets suit the device
   ImpulseMode impulses = ImpulseMode::All;
   std::string device;              ///< selector; empty: the first usable device, CPU first
   int threads = 0;                 ///< CPU devices; 0: all

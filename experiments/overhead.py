@@ -1,22 +1,23 @@
 """What does looking cost: how much slower is a frame with --profile or --trace than without?
 
-Held constant: scene, picture, all threads, kernels on disk. Short frames take turns, many times, as what is looked for
-is smaller than the noise of one run: the answer is the median of the ratios of neighbours in time, with an interval of
-95 % by resampling. Once with the program's own wavefront, once with wavefronts so small that a frame has thousands of
+Held constant: scene, picture, all threads, kernels on disk. Short frames take turns, many times and each round in another
+order, as what is looked for is smaller than the noise of one run: the answer is the median of the ratios within rounds,
+with an interval of 95 % by resampling. Once with the program's own wavefront, once with wavefronts so small that a frame has thousands of
 launches, each of which a trace records.
 
 Writes data/overhead.tsv, a row for each frame; figures/overhead.
 """
-import functools
+import random
 import statistics
 
 from lib import style, table
 from lib.context import SCENES, size
-from lib.measure import interleaved, medianInterval
+from lib.measure import medianInterval
 
 COLUMNS = ["case", "variant", "run", "render_s", "launches"]
 CASES = {"own wavefront": [*size(640, 360), "--rays-per-pixel", 2],
          "wavefronts of 1024": [*size(320, 180), "--wavefront", 1024]}
+ROUNDS = {"own wavefront": 40, "wavefronts of 1024": 120}
 VARIANTS = ["plain", "plain again", "--profile", "--trace"]
 
 
@@ -27,14 +28,17 @@ def frame(context, case, variant):
 
 def measure(context):
     out = context.table("overhead", COLUMNS)
-    runs = context.pick(4, 30)
-    progress = context.progress("overhead", len(CASES) * len(VARIANTS) * runs)
-    for case in CASES:
-        variants = {v: functools.partial(frame, context, case, v) for v in VARIANTS}
-        for variant, run, stats in interleaved(variants, runs):
-            out.row(case=case, variant=variant, run=run, render_s=stats["time"]["render"],
-                    launches=sum(s["launches"] for s in stats["stages"]))
-            progress.step(f"{case}, {variant}")
+    dice = random.Random(1)
+    rounds = {case: context.pick(4, n) for case, n in ROUNDS.items()}
+    progress = context.progress("overhead", sum(rounds.values()))
+    for case, number in rounds.items():
+        frame(context, case, "plain")  # compiled, and on disk
+        for run in range(number):
+            for variant in dice.sample(VARIANTS, len(VARIANTS)):
+                stats = frame(context, case, variant)
+                out.row(case=case, variant=variant, run=run, render_s=stats["time"]["render"],
+                        launches=sum(s["launches"] for s in stats["stages"]))
+            progress.step(f"{case}, round {run + 1}")
 
 
 def ratios(rows, case, variant):

@@ -97,12 +97,13 @@ def changed(sweep, factor):
 
 def render(whittle, folder, command="render"):
     """Radiance [h, w, 3] or None, statistics, first line of standard error."""
+    picture = folder / f"{len(list(folder.iterdir()))}.exr"  # another name each: OpenImageIO keeps files that it read
     done = subprocess.run([whittle, command, folder / "scene.glb", "--width", "64", "--height", "36", "--quiet",
-                           "-o", folder / "picture.exr", "--stats", "-"], capture_output=True, text=True)
+                           "-o", picture, "--stats", "-"], capture_output=True, text=True)
     said = (done.stderr.strip().split("\n") or [""])[0]
     if done.returncode != 0:
         return None, None, said
-    image = OpenImageIO.ImageBuf(str(folder / "picture.exr"))
+    image = OpenImageIO.ImageBuf(str(picture))
     return image.get_pixels(OpenImageIO.FLOAT).astype(float)[..., :3], json.loads(done.stdout), said
 
 

@@ -52,8 +52,8 @@ def render(context, variants):
         axis.set_title(title, fontsize=9)
     for line, (where, place) in zip(axes, PLACES.items()):
         scene = stillLife(place).write(context.folder / f"bump_why_{place.size:g}_{place.away:g}.glb")
-        for axis, variant in zip(line, variants.values()):
-            picture = context.folder / "bump_why.exr"
+        for k, (axis, variant) in enumerate(zip(line, variants.values())):
+            picture = context.folder / f"bump_why_{place.size:g}_{place.away:g}_{k}.exr"  # a new name: files read are kept
             context.render(scene, "--width", WIDTH, "--height", HEIGHT, "--bounces", 1, "--keep-all-features",
                            "-o", picture, *variant.options(context, place))
             axis.imshow(shown(pixels(picture)), interpolation="nearest")

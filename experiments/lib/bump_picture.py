@@ -53,7 +53,8 @@ def render(context, variants):
     for line, (where, place) in zip(axes, PLACES.items()):
         scene = stillLife(place).write(context.folder / f"bump_why_{place.size:g}_{place.away:g}.glb")
         for k, (axis, variant) in enumerate(zip(line, variants.values())):
-            picture = context.folder / f"bump_why_{place.size:g}_{place.away:g}_{k}.exr"  # a new name: files read are kept
+            # A new name for each: OpenImageIO keeps files that it read.
+            picture = context.folder / f"bump_why_{place.size:g}_{place.away:g}_{k}.exr"
             context.render(scene, "--width", WIDTH, "--height", HEIGHT, "--bounces", 1, "--keep-all-features",
                            "-o", picture, *variant.options(context, place))
             axis.imshow(shown(pixels(picture)), interpolation="nearest")

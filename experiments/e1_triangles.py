@@ -14,7 +14,7 @@ from lib.measure import curve, interleaved
 
 COLUMNS = ["curve", "search", "threads", "width", "height", "squares", "triangles", "repetition", "render", "build",
            "load", "upload", "rays", "tree", "triangle_bytes", "memory"]
-LIMIT = 150.0  # seconds of one run with the array
+LIMIT = 100.0  # seconds of one run with the array
 
 
 def curves(threads):

@@ -144,7 +144,9 @@ std::string renderSummary(const Stats& s) {
   out += fmt::format("{} primary, {} impulse, {} shadow\n", formatInteger(s.rays.primary),
                      formatInteger(s.rays.impulse), formatInteger(s.rays.shadow));
   if (!s.error.empty() && s.error.back().raysPerPixel >= 2)
-    out += fmt::format("estimated error {} W/(m² sr)\n", formatReal(s.error.back().estimate));
+    out += std::isfinite(s.error.back().estimate)
+               ? fmt::format("estimated error {} W/(m² sr)\n", formatReal(s.error.back().estimate))
+               : "estimated error unknown: radiance above 1e19 W/(m² sr), whose square no float holds\n";
   if (s.cutOffThroughput > 0.0 && std::isfinite(s.biasBound))
     out += fmt::format(
         "the cut-off took at most {} W/(m² sr) off the mean, which is {}{}\n", formatReal(s.biasBound),

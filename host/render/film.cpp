@@ -41,7 +41,8 @@ std::size_t placeOf(const FilmSums& sums, std::size_t p) {
   return static_cast<std::size_t>(sums.pixelOrder[p] >> 16) * sums.width + (sums.pixelOrder[p] & 0xffffU);
 }
 
-/// Of the mean of n samples of pixel p, averaged over the channels.
+/// Of the mean of n samples of pixel p, averaged over the channels; infinite where squares of the samples
+/// left the range of floats (radiance above 1e19): nothing is known then.
 double varianceOfMean(const FilmSums& sums, std::size_t p, double n) {
   double squaredMean = 0.0;
   for (int c = 0; c < 3; ++c) {
@@ -49,6 +50,7 @@ double varianceOfMean(const FilmSums& sums, std::size_t p, double n) {
     squaredMean += mean * mean / 3.0;
   }
   const double meanSquare = plane(sums, FILM_SQUARES, FILM_SQUARES_COMPENSATION, p) / n;
+  if (!std::isfinite(meanSquare)) return std::numeric_limits<double>::infinity();
   return std::max(0.0, meanSquare - squaredMean) / (n - 1.0);
 }
 

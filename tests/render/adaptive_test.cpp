@@ -117,6 +117,17 @@ TEST(Adaptive, TakesMoreOffTheTrueErrorThanTheSameRaysEverywhere) {
   EXPECT_NEAR(*adaptive.rmse / adaptive.estimate, 1.0, 0.2);
 }
 
+/// The film's squares are floats: what leaves their range must not pass for certainty.
+TEST(ErrorEstimate, IsInfiniteWhereSquaresOverflow) {
+  Scene scene = ownScene("cornell_box");
+  for (Light& light : scene.lights) light.intensity *= 1e30F;
+  Settings settings = smallSettings(2);
+  settings.raysPerPixel = 4;
+  const RenderResult result = renderOnDevice(scene, settings);
+  EXPECT_EQ(result.stats.nonFinite, 0U);
+  EXPECT_TRUE(std::isinf(result.stats.error.back().estimate)) << result.stats.error.back().estimate;
+}
+
 /// Deep glass: each sample is thousands of rays, and the first pass takes longer than the limit.
 TEST(TimeLimit, EveryPixelGetsOneRayAndNoMoreThanFit) {
   Settings settings = smallSettings(10);

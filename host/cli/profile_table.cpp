@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "cli/text.h"
 
@@ -134,6 +135,25 @@ std::string profileTable(const Stats& stats) {
   return out + "\n" + balance(stats, all) + "\n" + timeline(stats);
 }
 
+namespace {
+
+/// The estimate, and that a target was missed where one was asked for.
+std::string errorLines(const Stats& s) {
+  const bool estimates = !s.error.empty() && s.error.back().raysPerPixel >= 2;
+  const double estimate = estimates ? s.error.back().estimate : std::numeric_limits<double>::infinity();
+  std::string out;
+  if (std::isfinite(estimate))
+    out += fmt::format("estimated error {} W/(m² sr)\n", formatReal(estimate));
+  else if (estimates)
+    out += "estimated error unknown: radiance above 1e19 W/(m² sr), whose square no float holds\n";
+  if (s.settings.targetError > 0.0 && !(estimate <= s.settings.targetError))
+    out += fmt::format("not the target of {}: --rays-per-pixel or --time-limit came first\n",
+                       formatReal(s.settings.targetError));
+  return out;
+}
+
+}  // namespace
+
 std::string renderSummary(const Stats& s) {
   std::string out = fmt::format(
       "{}×{}, {}, {}\n", s.settings.width, s.settings.height,
@@ -143,10 +163,7 @@ std::string renderSummary(const Stats& s) {
                      formatRate(megaRate(s.rays.total(), s.time.render) * 1e6));
   out += fmt::format("{} primary, {} impulse, {} shadow\n", formatInteger(s.rays.primary),
                      formatInteger(s.rays.impulse), formatInteger(s.rays.shadow));
-  if (!s.error.empty() && s.error.back().raysPerPixel >= 2)
-    out += std::isfinite(s.error.back().estimate)
-               ? fmt::format("estimated error {} W/(m² sr)\n", formatReal(s.error.back().estimate))
-               : "estimated error unknown: radiance above 1e19 W/(m² sr), whose square no float holds\n";
+  out += errorLines(s);
   if (s.cutOffThroughput > 0.0 && std::isfinite(s.biasBound))
     out += fmt::format(
         "the cut-off took at most {} W/(m² sr) off the mean, which is {}{}\n", formatReal(s.biasBound),

@@ -31,6 +31,19 @@ Json statsOf(const std::vector<std::string>& more) {
   return readJson(folder / "s.json");
 }
 
+TEST(Summary, SaysThatATargetWasMissed) {
+  const Folder folder;
+  const auto missed = [&](const std::vector<std::string>& more) {
+    const Outcome run = runWhittle(smallRender(more), {folder.path(), {}});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out.find("not the target of 0.0001") != std::string::npos;
+  };
+  EXPECT_TRUE(missed({"--target-error", "1e-4", "--rays-per-pixel", "2"}));
+  EXPECT_TRUE(missed({"--target-error", "1e-4", "--rays-per-pixel", "1"})) << "nothing is estimated";
+  EXPECT_FALSE(missed({"--target-error", "100"}));
+  EXPECT_FALSE(missed({"--rays-per-pixel", "2"}));
+}
+
 TEST(Stats, HoldsEveryKeyOfTheContract) {
   const Json s = statsOf({"--rays-per-pixel", "4"});
   expectKeys(s,

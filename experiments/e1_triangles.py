@@ -14,7 +14,7 @@ from lib.measure import curve, interleaved
 
 COLUMNS = ["curve", "search", "threads", "width", "height", "squares", "triangles", "repetition", "render", "build",
            "load", "upload", "rays", "tree", "triangle_bytes", "memory"]
-LIMIT = 100.0  # seconds of one run with the array
+LIMIT = 120.0  # seconds of one run with the array
 
 
 def curves(threads):
@@ -133,8 +133,9 @@ def plotTimes(rows, folder):
         laws[name], first = trend(axis, x, y, colour)
         text = f"{search}, {threadsText(threads)}, {width}×{height}\n{exponent(laws[name], first)}"
         if search == "array":  # ends amid the plot, with room beside it
-            axis.annotate(text, (x[-1], y[-1]), (12, 8 if threads == 1 else -8), textcoords="offset points",
-                          color=colour, fontsize=9, va="bottom" if threads == 1 else "top")
+            one = threads == 1
+            axis.annotate(text, (x[-1], y[-1]), (-14 if one else 12, 8 if one else -8), textcoords="offset points",
+                          color=colour, fontsize=9, ha="right" if one else "left", va="bottom" if one else "top")
         else:
             labels.add(x[-1], y[-1], text, colour)
     axis.set_title(statement(rows, laws))

@@ -64,10 +64,11 @@ TIMED = {"cornell_box": lambda c: SCENES / "cornell_box.glb", "height_field_256"
 
 
 def kernelFolder(context, name):
-    """The program's kernels with bumps/NAME.cl in the place of lib/bump.cl."""
+    """The program's kernels with bumps/NAME.cl in the place of lib/bump.cl, which it may include as default_bump.cl."""
     folder = context.folder / f"kernels_{name}"
     if not folder.exists():
         shutil.copytree(ROOT / "kernels", folder)
+        shutil.copy(folder / "lib" / "bump.cl", folder / "lib" / "default_bump.cl")
         shutil.copy(ROOT / "experiments" / "bumps" / f"{name}.cl", folder / "lib" / "bump.cl")
     return folder
 

@@ -14,7 +14,7 @@ from lib.measure import curve, interleaved
 
 COLUMNS = ["curve", "search", "threads", "width", "height", "squares", "triangles", "repetition", "render", "build",
            "load", "upload", "rays", "tree", "triangle_bytes", "memory"]
-LIMIT = 120.0  # seconds of one run with the array
+LIMIT = 300.0  # seconds of one run with the array
 
 
 def curves(threads):
@@ -32,7 +32,7 @@ def sizes(context):
 
 def work(squares):
     """About the seconds that a size takes: processes that start, arrays as far as they go, trees that are built."""
-    return 20 + squares**2 / (3000 if squares < 700 else 35000)
+    return 20 + squares**2 / (3000 if squares < 1100 else 9500 if squares < 1800 else 35000)
 
 
 def renders(context, scene, chosen):

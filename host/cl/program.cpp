@@ -13,10 +13,11 @@ std::string formatBytes(std::uint64_t bytes) {
   return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.3g} {}", value, kUnits[unit]);
 }
 
-Compute::Compute(DeviceInfo device, Memory memory) : device_(std::move(device)), memory_(memory) {
+Compute::Compute(DeviceInfo device, Memory memory, Launches launches)
+    : device_(std::move(device)), memory_(memory), launches_(launches) {
   clTry("opening " + device_.name, [&] {
     context_ = cl::Context(device_.device);
-    queue_ = cl::CommandQueue(context_, device_.device, CL_QUEUE_PROFILING_ENABLE);
+    queue_ = cl::CommandQueue(context_, device_.device, timesLaunches() ? CL_QUEUE_PROFILING_ENABLE : 0);
   });
 }
 

@@ -22,16 +22,19 @@ struct Buffer {
   explicit operator bool() const { return bytes > 0; }
 };
 
-/// Owns the context and an in-order, profiling command queue of one device.
+/// Owns the context and an in-order command queue of one device.
 class Compute {
  public:
   /// Real: buffers are allocated. SizesOnly: they only know their names and sizes, and limits are checked.
   enum class Memory : std::uint8_t { Real, SizesOnly };
+  /// Whether the command queue keeps the time of each launch (CL_QUEUE_PROFILING_ENABLE).
+  enum class Launches : std::uint8_t { Timed, Untimed };
 
-  explicit Compute(DeviceInfo device, Memory memory = Memory::Real);
+  explicit Compute(DeviceInfo device, Memory memory = Memory::Real, Launches launches = Launches::Timed);
 
   const DeviceInfo& device() const { return device_; }
   cl::CommandQueue& queue() { return queue_; }
+  bool timesLaunches() const { return launches_ == Launches::Timed; }
 
   /// Allocates; throws ClError that names the buffer, its size and the device's limit.
   Buffer allocate(const std::string& name, std::size_t bytes);
@@ -58,6 +61,7 @@ class Compute {
  private:
   DeviceInfo device_;
   Memory memory_;
+  Launches launches_;
   cl::Context context_;
   cl::CommandQueue queue_;
   std::string buildLog_;

@@ -92,6 +92,7 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
   RenderHooks hooks;
   if (!o.kernelFolder.empty()) hooks.kernelFolder = o.kernelFolder;
   if (!o.reference.empty()) hooks.reference = &reference;
+  hooks.timeStages = o.profile || trace || !o.stats.empty();
   hooks.trace = trace;
   hooks.compiler = "/proc/self/exe";
   std::future<void> codec;  // loaded meanwhile; a problem shows when a picture is written
@@ -160,7 +161,7 @@ void writeResults(const RenderOptions& o, RenderResult& result, Clock::time_poin
   result.stats.phases.push_back({"write", steadySeconds(writing), result.stats.time.write});
   if (trace) {
     trace->phase("write", writing);
-    writeTextFile(o.trace, trace->toJson().dump() + "\n");
+    writeTextFile(o.trace, trace->toText());
   }
   result.stats.time.total = since(start);
   if (!o.stats.empty()) writeTextFile(o.stats, statsText(o, result.stats));

@@ -87,7 +87,8 @@ class Session {
     say("opening the device");
     const auto opening = Clock::now();
     limitCpuThreads(settings_.threads);
-    compute_.emplace(selectDevice(listDevices(), settings_.device), memory_);
+    compute_.emplace(selectDevice(listDevices(), settings_.device), memory_,
+                     hooks_.timeStages ? Compute::Launches::Timed : Compute::Launches::Untimed);
     endPhase("open the device", opening);
     if (settings_.threads > 0)
       tbbLimit_.emplace(tbb::global_control::max_allowed_parallelism, settings_.threads);

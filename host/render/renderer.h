@@ -40,7 +40,9 @@ struct RenderHooks {
   /// The `whittle` binary, to compile kernels with a second process (compilerProcessMain); empty: this one
   /// does it all.
   std::filesystem::path compiler;
-  Trace* trace = nullptr;  ///< records launches and phases; null: nothing is kept
+  /// False: the command queue keeps no times, so that Stats' stages have none.
+  bool timeStages = true;
+  Trace* trace = nullptr;  ///< records launches and phases, needs timeStages; null: nothing is kept
 };
 
 /// Renders. The same scene and settings on the same device give the same bits, whatever the threads,

@@ -60,7 +60,7 @@ class StageRunner {
   /// Work on the host from now to the end of the scope, for the trace.
   [[nodiscard]] HostWork hostWork(const char* name) const { return {trace_, name}; }
 
-  /// Adds the times of finished launches to the statistics; the queue must be idle.
+  /// Waits for all launches and adds their times to the statistics, where the queue keeps them.
   void collect();
   /// Over all bounces, in the order of the first launches.
   std::vector<StageStats> stats();

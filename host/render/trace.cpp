@@ -1,21 +1,29 @@
-// Trace Event Format: "X" is a complete event, "M" names a row; times are microseconds.
+// Trace Event Format: "X" is a complete event, "M" names a row; times are microseconds. Written as text at
+// once: a frame may have thousands of launches, and a tree of JSON values takes ten times as long as the
+// text. Names are kernels' and our own phases', which JSON needs not escape.
 #include "render/trace.h"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <string_view>
 
 namespace whittle {
 namespace {
 
 constexpr int kProcess = 1;
 
-nlohmann::ordered_json trackName(Trace::Track track, const char* name) {
-  return {{"ph", "M"},
-          {"name", "thread_name"},
-          {"pid", kProcess},
-          {"tid", static_cast<int>(track)},
-          {"args", {{"name", name}}}};
+using Text = fmt::memory_buffer;
+
+void nameRow(Text& out, int row, const char* event, const char* name) {
+  fmt::format_to(std::back_inserter(out),
+                 R"({{"ph":"M","name":"{}","pid":{},"tid":{},"args":{{"name":"{}"}}}},)"
+                 "\n",
+                 event, kProcess, row, name);
 }
 
 /// The queue that a stage serves: whose entries are its items.
@@ -27,18 +35,34 @@ const char* queueOf(const std::string& stage) {
   return "hits";
 }
 
-/// To the nanosecond: device clocks tell no more.
-double microseconds(double seconds) { return std::round(seconds * 1e9) * 1e-3; }
+/// Microseconds to three digits, as device clocks tell no more than nanoseconds. (As integers, which are
+/// written faster than doubles.)
+struct Microseconds {
+  std::uint64_t whole, thousandths;
 
-nlohmann::ordered_json completeEvent(const std::string& name, const char* category, Trace::Track track,
-                                     double start, double end) {
-  return {{"ph", "X"},
-          {"name", name},
-          {"cat", category},
-          {"pid", kProcess},
-          {"tid", static_cast<int>(track)},
-          {"ts", microseconds(start)},
-          {"dur", microseconds(end - start)}};
+  explicit Microseconds(double seconds) {
+    const auto nanoseconds = static_cast<std::uint64_t>(std::llround(std::max(0.0, seconds) * 1e9));
+    whole = nanoseconds / 1000, thousandths = nanoseconds % 1000;
+  }
+};
+
+/// All but the closing brace.
+void openEvent(Text& out, const std::string& name, const char* category, Trace::Track track, double start,
+               double end) {
+  const Microseconds from(start), length(end - start);
+  fmt::format_to(std::back_inserter(out),
+                 FMT_COMPILE(R"({{"ph":"X","name":"{}","cat":"{}","pid":{},"tid":{},)"
+                             R"("ts":{}.{:03},"dur":{}.{:03})"),
+                 name, category, kProcess, static_cast<int>(track), from.whole, from.thousandths,
+                 length.whole, length.thousandths);
+}
+
+void launchArguments(Text& out, const Trace::Launch& l) {
+  const Microseconds waited(l.start - l.enqueued);
+  fmt::format_to(std::back_inserter(out),
+                 FMT_COMPILE(R"(,"args":{{"batch":{},"bounce":{},"queue":"{}",)"
+                             R"("items":{},"bytes":{},"waited us":{}.{:03}}})"),
+                 l.batch, l.bounce, queueOf(l.stage), l.items, l.bytes, waited.whole, waited.thousandths);
 }
 
 }  // namespace
@@ -53,26 +77,34 @@ void Trace::phase(const std::string& name, Clock::time_point start, Track track)
   phases_.push_back({name, track, steadySeconds(start), steadySeconds(now)});
 }
 
-nlohmann::ordered_json Trace::toJson() const {
-  double origin = std::numeric_limits<double>::infinity();
-  for (const auto& p : phases_) origin = std::min(origin, p.start);
-  for (const auto& l : launches_) origin = std::min(origin, l.start);
-  nlohmann::ordered_json events = nlohmann::ordered_json::array();
-  events.push_back(
-      {{"ph", "M"}, {"name", "process_name"}, {"pid", kProcess}, {"args", {{"name", "whittle"}}}});
-  events.push_back(trackName(Track::Host, "host"));
-  events.push_back(trackName(Track::Compiler, "kernel compiler"));
-  events.push_back(trackName(Track::Device, "device"));
-  for (const auto& p : phases_)
-    events.push_back(completeEvent(p.name, "phase", p.track, p.start - origin, p.end - origin));
-  for (const auto& l : launches_) {
-    events.push_back(completeEvent(l.stage, "kernel", Track::Device, l.start - origin, l.end - origin));
-    events.back()["args"] = {
-        {"batch", l.batch},          {"bounce", l.bounce},
-        {"queue", queueOf(l.stage)}, {"items", l.items},
-        {"bytes", l.bytes},          {"waited us", microseconds(std::max(0.0, l.start - l.enqueued))}};
+double Trace::firstSecond() const {
+  double first = std::numeric_limits<double>::infinity();
+  for (const auto& p : phases_) first = std::min(first, p.start);
+  for (const auto& l : launches_) first = std::min(first, l.start);
+  return first;
+}
+
+std::string Trace::toText() const {
+  const double origin = firstSecond();
+  Text out;
+  const auto append = [&](std::string_view text) { out.append(text.data(), text.data() + text.size()); };
+  append("{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n");
+  nameRow(out, 0, "process_name", "whittle");
+  nameRow(out, static_cast<int>(Track::Host), "thread_name", "host");
+  nameRow(out, static_cast<int>(Track::Compiler), "thread_name", "kernel compiler");
+  nameRow(out, static_cast<int>(Track::Device), "thread_name", "device");
+  for (const auto& p : phases_) {
+    openEvent(out, p.name, "phase", p.track, p.start - origin, p.end - origin);
+    append("},\n");
   }
-  return {{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}};
+  for (const auto& l : launches_) {
+    openEvent(out, l.stage, "kernel", Track::Device, l.start - origin, l.end - origin);
+    launchArguments(out, l);
+    append("},\n");
+  }
+  out.resize(out.size() - 2);  // JSON wants no comma after the last
+  append("\n]}\n");
+  return fmt::to_string(out);
 }
 
 }  // namespace whittle

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -32,8 +31,8 @@ class Trace {
   /// From `start` to now. May be called from several threads.
   void phase(const std::string& name, Clock::time_point start, Track track = Track::Host);
 
-  /// Times count from the first record.
-  nlohmann::ordered_json toJson() const;
+  /// The file's text: JSON, an event to a line. Times count from the first record.
+  std::string toText() const;
 
  private:
   struct Phase {
@@ -41,6 +40,8 @@ class Trace {
     Track track;
     double start, end;
   };
+
+  double firstSecond() const;
 
   std::vector<Launch> launches_;
   std::vector<Phase> phases_;

@@ -41,6 +41,15 @@ TEST(Compute, AllocationOverTheLimitNamesBufferSizeAndLimit) {
   EXPECT_FALSE(contains(message, "\n")) << message;
 }
 
+TEST(Compute, QueueKeepsTimesOnlyWhereAsked) {
+  for (const auto launches : {Compute::Launches::Timed, Compute::Launches::Untimed}) {
+    Compute compute(test::testDevice(), Compute::Memory::Real, launches);
+    const auto properties = compute.queue().getInfo<CL_QUEUE_PROPERTIES>();
+    EXPECT_EQ((properties & CL_QUEUE_PROFILING_ENABLE) != 0, compute.timesLaunches());
+    EXPECT_EQ(compute.timesLaunches(), launches == Compute::Launches::Timed);
+  }
+}
+
 TEST(Compute, BuffersKeepTheirContents) {
   Compute compute = test::openTestDevice();
   std::vector<std::uint32_t> values(1000);

@@ -25,6 +25,29 @@ TEST(RenderStats, CountsOfStagesAddUp) {
   }
 }
 
+TEST(RenderStats, NothingIsTimedWhereNobodyAsks) {
+  const Scene scene = ownScene("cornell_box");
+  Settings settings = smallSettings(4);
+  settings.wavefront = 1500;
+  RenderHooks hooks;
+  const RenderResult timed = renderOnDevice(scene, settings, hooks);
+  hooks.timeStages = false;
+  const RenderResult untimed = renderOnDevice(scene, settings, hooks);
+  EXPECT_EQ(differingPixels(timed.radiance, untimed.radiance), 0U);
+  ASSERT_EQ(timed.stats.stages.size(), untimed.stats.stages.size());
+  double seconds = 0.0;
+  for (std::size_t i = 0; i < timed.stats.stages.size(); ++i) {
+    const StageStats &with = timed.stats.stages[i], &without = untimed.stats.stages[i];
+    EXPECT_EQ(with.launches, without.launches) << with.name;
+    EXPECT_EQ(with.items, without.items) << with.name;
+    EXPECT_EQ(with.bytes, without.bytes) << with.name;
+    EXPECT_EQ(without.seconds, 0.0) << without.name;
+    seconds += with.seconds;
+  }
+  EXPECT_GT(seconds, 0.0);
+  EXPECT_GT(untimed.stats.time.render, 0.0);
+}
+
 TEST(RenderStats, BuffersAreListedByGroup) {
   const Stats stats = renderOnDevice(ownScene("textured"), smallSettings(4)).stats;
   std::map<std::string, std::uint64_t> groups;

@@ -17,7 +17,7 @@ from lib.measure import medianInterval
 NEEDS = ["frame_cost"]  # built beside the program
 COLUMNS = ["case", "variant", "round", "render_s", "after_s", "launches"]
 CASES = {"own wavefront": (640, 360, 2, 1 << 18), "wavefronts of 1024": (320, 180, 2, 1024)}
-ROUNDS = 300
+ROUNDS = 200
 PLAIN = "off"
 SHOWN = ["off again", "--profile", "--trace"]
 
@@ -76,7 +76,8 @@ def plotCase(axis, rows, case):
         axis.plot([middle], [y], "o", color=style.BLUE)
         after = afterwards(rows, case, variant)
         text = f"{middle:.3f} [{low:.3f}, {high:.3f}]" + (f"; then {after:.2g} ms" if after > 0 else "")
-        axis.annotate(text, (middle, y), (0, 8), textcoords="offset points", ha="center", fontsize=8.5)
+        axis.annotate(text, (middle, y), (0, 8), textcoords="offset points", ha="center", fontsize=8.5,
+                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 1})
 
 
 def plot(folder):

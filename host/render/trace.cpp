@@ -47,7 +47,7 @@ struct Microseconds {
 };
 
 /// All but the closing brace.
-void openEvent(Text& out, const std::string& name, const char* category, Trace::Track track, double start,
+void openEvent(Text& out, std::string_view name, const char* category, Trace::Track track, double start,
                double end) {
   const Microseconds from(start), length(end - start);
   fmt::format_to(std::back_inserter(out),
@@ -71,7 +71,7 @@ double steadySeconds(Trace::Clock::time_point time) {
   return std::chrono::duration<double>(time.time_since_epoch()).count();
 }
 
-void Trace::phase(const std::string& name, Clock::time_point start, Track track) {
+void Trace::phase(const char* name, Clock::time_point start, Track track) {
   const auto now = Clock::now();
   const std::lock_guard lock(phasesMutex_);
   phases_.push_back({name, track, steadySeconds(start), steadySeconds(now)});

@@ -28,15 +28,15 @@ class Trace {
   };
 
   void launch(Launch record) { launches_.push_back(std::move(record)); }
-  /// From `start` to now. May be called from several threads.
-  void phase(const std::string& name, Clock::time_point start, Track track = Track::Host);
+  /// From `start` to now; `name` is kept as it is, not copied. May be called from several threads.
+  void phase(const char* name, Clock::time_point start, Track track = Track::Host);
 
   /// The file's text: JSON, an event to a line. Times count from the first record.
   std::string toText() const;
 
  private:
   struct Phase {
-    std::string name;
+    const char* name;
     Track track;
     double start, end;
   };

@@ -137,6 +137,13 @@ std::string profileTable(const Stats& stats) {
 
 namespace {
 
+/// As many as were reached, which a limit or a target makes fewer than were asked for.
+std::string raysPerPixel(const Stats& s) {
+  if (s.samples.least == s.samples.most) return formatSome(s.samples.most, "ray per pixel", "rays per pixel");
+  return fmt::format("{:.1f} rays per pixel ({} to {})", s.samples.mean, formatInteger(s.samples.least),
+                     formatInteger(s.samples.most));
+}
+
 /// The estimate, and that a target was missed where one was asked for.
 std::string errorLines(const Stats& s) {
   const bool estimates = !s.error.empty() && s.error.back().raysPerPixel >= 2;
@@ -155,10 +162,8 @@ std::string errorLines(const Stats& s) {
 }  // namespace
 
 std::string renderSummary(const Stats& s) {
-  std::string out = fmt::format(
-      "{}×{}, {}, {}\n", s.settings.width, s.settings.height,
-      formatSome(s.scene.triangles, "triangle", "triangles"),
-      formatSome(static_cast<std::uint64_t>(s.settings.raysPerPixel), "ray per pixel", "rays per pixel"));
+  std::string out = fmt::format("{}×{}, {}, {}\n", s.settings.width, s.settings.height,
+                                formatSome(s.scene.triangles, "triangle", "triangles"), raysPerPixel(s));
   out += fmt::format("{} rays in {}: {}\n", formatInteger(s.rays.total()), formatSeconds(s.time.render),
                      formatRate(megaRate(s.rays.total(), s.time.render) * 1e6));
   out += fmt::format("{} primary, {} impulse, {} shadow\n", formatInteger(s.rays.primary),

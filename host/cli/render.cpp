@@ -125,6 +125,8 @@ ImageMetadata pictureMetadata(const RenderOptions& o, const Stats& stats) {
           {"whittle:scene", o.scene.file.filename().string()},
           {"whittle:rays", fmt::format("primary {} impulse {} shadow {}", stats.rays.primary,
                                        stats.rays.impulse, stats.rays.shadow)},
+          {"whittle:raysPerPixel", fmt::format("least {} mean {:g} most {}", stats.samples.least,
+                                               stats.samples.mean, stats.samples.most)},
           {"whittle:renderSeconds", fmt::format("{:.6f}", stats.time.render)}};
 }
 

@@ -59,7 +59,7 @@ struct Stats {
     std::string file;
     std::uint64_t triangles = 0, droppedTriangles = 0, materials = 0, lights = 0, textures = 0;
   } scene;
-  Settings settings;  ///< as used: camera resolved, raysPerPixel reached
+  Settings settings;  ///< as used; raysPerPixel is what was asked for, `samples` what was reached
   std::string searchUsed;
   struct {
     std::string platform, name, version, driver;

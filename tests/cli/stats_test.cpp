@@ -44,6 +44,16 @@ TEST(Summary, SaysThatATargetWasMissed) {
   EXPECT_FALSE(missed({"--rays-per-pixel", "2"}));
 }
 
+TEST(Summary, CountsTheRaysThatWereReached) {
+  const Folder folder;
+  const Outcome met = runWhittle(
+      smallRender({"--rays-per-pixel", "64", "--target-error", "100", "-o", "a.png"}), {folder.path(), {}});
+  EXPECT_NE(met.out.find(" triangles, 2 rays per pixel\n"), std::string::npos) << met.out << met.err;
+  const Outcome adaptive =
+      runWhittle(smallRender({"--rays-per-pixel", "40", "--adaptive", "-o", "a.png"}), {folder.path(), {}});
+  EXPECT_NE(adaptive.out.find(" rays per pixel (16 to "), std::string::npos) << adaptive.out << adaptive.err;
+}
+
 TEST(Stats, HoldsEveryKeyOfTheContract) {
   const Json s = statsOf({"--rays-per-pixel", "4"});
   expectKeys(s,
@@ -203,21 +213,25 @@ TEST(Stats, TimeLimitStopsEarlyAndSaysHowFarItCame) {
   // A limit that the first pass of one ray has passed already: the second pass must not start… but two rays
   // give an estimate.
   const auto s = statsOf({"--rays-per-pixel", "1048576", "--time-limit", "0.000001"});
-  EXPECT_LE(s["settings"]["raysPerPixel"], 2);
-  EXPECT_EQ(s["rays"]["primary"], 32 * 24 * s["settings"]["raysPerPixel"].get<int>());
+  EXPECT_EQ(s["settings"]["raysPerPixel"], 1048576) << "what was asked for";
+  EXPECT_LE(s["samples"]["most"], 2);
+  EXPECT_EQ(s["rays"]["primary"], 32 * 24 * s["samples"]["mean"].get<int>());
 }
 
 TEST(Stats, ATargetWithoutACountTakesAsManyRaysAsItNeeds) {
   const auto json = statsOf({"--target-error", "0.05"});
   const auto& last = json["error"].back();
-  EXPECT_GE(json["settings"]["raysPerPixel"], 2);
-  EXPECT_EQ(last["raysPerPixel"], json["settings"]["raysPerPixel"]);
+  EXPECT_EQ(json["settings"]["raysPerPixel"], 65536) << "what stood for the count that was not given";
+  EXPECT_GE(json["samples"]["least"], 2);
+  EXPECT_EQ(last["raysPerPixel"], json["samples"]["mean"]);
+  EXPECT_EQ(json["samples"]["least"], json["samples"]["most"]);
   EXPECT_LE(last["estimate"], 0.05);
 }
 
 TEST(Stats, TargetErrorStopsOnceTheEstimateIsBelow) {
   const auto loose = statsOf({"--rays-per-pixel", "4096", "--target-error", "0.02"});
-  EXPECT_LT(loose["settings"]["raysPerPixel"], 4096);
+  EXPECT_EQ(loose["settings"]["raysPerPixel"], 4096);
+  EXPECT_LT(loose["samples"]["most"], 4096);
   EXPECT_LE(loose["error"].back()["estimate"], 0.02);
   for (std::size_t i = 0; i + 1 < loose["error"].size(); ++i)
     EXPECT_GT(loose["error"][i]["estimate"], 0.02) << "it should have stopped at point " << i;

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "scene/input_error.h"
+
 namespace whittle {
 namespace {
 
@@ -41,8 +43,8 @@ class Assembler {
       errno = std::filesystem::is_directory(file) ? EISDIR : 0;
       std::ifstream in(file);
       if (!in || errno == EISDIR)
-        throw std::runtime_error("kernel file " + file.string() +
-                                 " cannot be read: " + std::generic_category().message(errno));
+        throw InputError("--kernels: " + file.string() +
+                         " cannot be read: " + std::generic_category().message(errno));
       return {std::istreambuf_iterator<char>(in), {}};
     }
     const auto found = embeddedKernelFiles().find(path);

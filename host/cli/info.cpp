@@ -1,14 +1,17 @@
 // whittle info: what is in a scene, what it needs, and what will be left out and why.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cl/error.h"
 #include "cli/commands.h"
+#include "cli/error_options.h"
 #include "cli/info_report.h"
+#include "cli/option_kinds.h"
 #include "cli/options.h"
+#include "cli/outputs.h"
 #include "render/camera_to_device.h"
-#include "render/feature_needs.h"
 #include "render/renderer.h"
 
 namespace whittle::cli {
@@ -17,14 +20,23 @@ namespace {
 struct InfoOptions {
   SceneOptions scene;
   Settings settings;
+  std::vector<std::string> aovTexts;
   bool json = false;
 };
+
+/// As `whittle render` takes them, or without files: none is written.
+void checkAovs(InfoOptions& o) {
+  for (const auto& text : o.aovTexts)
+    if (std::find(kRenderAovs.begin(), kRenderAovs.end(), text) == kRenderAovs.end())
+      parseAov(text, kRenderAovs);
+  o.settings.aovs = !o.aovTexts.empty();
+}
 
 /// The render's own set-up where there is a device for it, so that sizes are real; else what a CPU device
 /// would do.
 void runInfo(const InfoOptions& o) {
   Notices notices;
-  notices.notes = uselessKeeps(o.settings);
+  notices.notes = uselessOptions(o.settings);
   const Scene scene = loadScene(o.scene, notices);
   findCamera(scene, o.settings.camera);
   limitCpuThreads(o.settings.threads);
@@ -58,10 +70,16 @@ void addInfo(CLI::App& app, int& status) {
   c->option_defaults()->group("Output");
   c->add_flag("--json", o->json, "as JSON");
   c->add_flag("--quiet", o->scene.quiet, "no notes on standard error; warnings only");
+  addSeveral(
+      *c, "--aov", o->aovTexts, "NAME",
+      "plan with the buffers of this auxiliary output; NAME=FILE.exr, as render takes it, writes nothing");
   addPictureOptions(*c, o->settings);
+  addErrorOptions(*c, o->settings);
   addDeviceOptions(*c, o->settings);
   c->footer("Example: whittle info scene.glb --bounces 1");
-  c->callback([o, &status] {
+  c->callback([o, c, &status] {
+    checkAovs(*o);
+    settleRaysPerPixel(*c, o->settings);
     runInfo(*o);
     status = 0;
   });

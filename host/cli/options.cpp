@@ -9,9 +9,11 @@
 #include <limits>
 #include <sstream>
 
+#include "cli/error_options.h"
 #include "cli/feature_names.h"
 #include "cli/option_kinds.h"
 #include "cli/text.h"
+#include "render/feature_needs.h"
 #include "scene/gltf_loader.h"
 #include "scene/image_io.h"
 #include "scene/input_error.h"
@@ -146,6 +148,12 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
            "them, with "
            "commas",
            ""});
+}
+
+std::vector<std::string> uselessOptions(const Settings& settings) {
+  std::vector<std::string> lines = uselessKeeps(settings);
+  for (auto& line : uselessAdaptive(settings)) lines.push_back(std::move(line));
+  return lines;
 }
 
 Scene loadScene(const SceneOptions& options, Notices& notices) {

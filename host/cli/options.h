@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "scene/notices.h"
 #include "scene/scene.h"
@@ -25,6 +26,9 @@ void addSceneOptions(CLI::App& command, SceneOptions& options);
 void addPictureOptions(CLI::App& command, Settings& settings);
 /// Settings of the device path alone.
 void addDeviceOptions(CLI::App& command, Settings& settings);
+
+/// A line for each option that changes nothing, with the reason.
+std::vector<std::string> uselessOptions(const Settings& settings);
 
 /// Loads, applies the background, prints notices to standard error (quiet: warnings only).
 Scene loadScene(const SceneOptions& options, Notices& notices);

@@ -15,6 +15,9 @@ struct AovOutput {
   std::filesystem::path file;
 };
 
+/// What `whittle render --aov` knows.
+inline const std::vector<std::string> kRenderAovs{"depth", "normal", "albedo", "primitive", "samples"};
+
 /// Throws InputError unless it is NAME=FILE.exr with a name among `names`.
 AovOutput parseAov(const std::string& text, const std::vector<std::string>& names);
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "cli/error_options.h"
 #include "cli/text.h"
 
 namespace whittle::cli {
@@ -137,28 +137,46 @@ std::string profileTable(const Stats& stats) {
 
 namespace {
 
-/// The estimate, and that a target was missed where one was asked for.
+/// As many as were reached, which a limit or a target makes fewer than were asked for.
+std::string raysPerPixel(const Stats& s) {
+  if (s.samples.least == s.samples.most) return formatSome(s.samples.most, "ray per pixel", "rays per pixel");
+  return fmt::format("{:.1f} rays per pixel ({} to {})", s.samples.mean, formatInteger(s.samples.least),
+                     formatInteger(s.samples.most));
+}
+
+/// ", 1.2 % of the mean".
+std::string shareOfMean(double error, double mean) {
+  return mean > 0.0 ? fmt::format(", {} % of the mean", formatReal(100.0 * error / mean)) : "";
+}
+
+/// The estimate is that of independent samples: right for random ones, too large for the others.
+std::string estimateLine(const Settings& settings, const ErrorPoint& last) {
+  if (!std::isfinite(last.estimate))
+    return "estimated error unknown: radiance above 1e19 W/(m² sr), whose square no float holds\n";
+  return fmt::format("estimated error: {} {} W/(m² sr){}\n",
+                     settings.sampler == Sampler::Random ? "about" : "at most about",
+                     formatReal(last.estimate), shareOfMean(last.estimate, last.mean));
+}
+
+/// The estimate, the true error beside it, and that a target was missed where one was asked for.
 std::string errorLines(const Stats& s) {
-  const bool estimates = !s.error.empty() && s.error.back().raysPerPixel >= 2;
-  const double estimate = estimates ? s.error.back().estimate : std::numeric_limits<double>::infinity();
+  const ErrorPoint last = s.error.empty() ? ErrorPoint{} : s.error.back();
   std::string out;
-  if (std::isfinite(estimate))
-    out += fmt::format("estimated error {} W/(m² sr)\n", formatReal(estimate));
-  else if (estimates)
-    out += "estimated error unknown: radiance above 1e19 W/(m² sr), whose square no float holds\n";
-  if (s.settings.targetError > 0.0 && !(estimate <= s.settings.targetError))
+  if (last.raysPerPixel >= 2) out += estimateLine(s.settings, last);
+  if (last.rmse)
+    out += fmt::format("true error: {} W/(m² sr){}, measured against --reference\n", formatReal(*last.rmse),
+                       shareOfMean(*last.rmse, last.mean));
+  if (hasErrorTarget(s.settings) && !meetsTarget(s.settings, last))
     out += fmt::format("not the target of {}: --rays-per-pixel or --time-limit came first\n",
-                       formatReal(s.settings.targetError));
+                       targetText(s.settings));
   return out;
 }
 
 }  // namespace
 
 std::string renderSummary(const Stats& s) {
-  std::string out = fmt::format(
-      "{}×{}, {}, {}\n", s.settings.width, s.settings.height,
-      formatSome(s.scene.triangles, "triangle", "triangles"),
-      formatSome(static_cast<std::uint64_t>(s.settings.raysPerPixel), "ray per pixel", "rays per pixel"));
+  std::string out = fmt::format("{}×{}, {}, {}\n", s.settings.width, s.settings.height,
+                                formatSome(s.scene.triangles, "triangle", "triangles"), raysPerPixel(s));
   out += fmt::format("{} rays in {}: {}\n", formatInteger(s.rays.total()), formatSeconds(s.time.render),
                      formatRate(megaRate(s.rays.total(), s.time.render) * 1e6));
   out += fmt::format("{} primary, {} impulse, {} shadow\n", formatInteger(s.rays.primary),

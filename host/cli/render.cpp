@@ -10,6 +10,7 @@
 #include "cl/device.h"
 #include "cli/build_failure.h"
 #include "cli/commands.h"
+#include "cli/error_options.h"
 #include "cli/option_kinds.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
@@ -17,7 +18,6 @@
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
 #include "cli/text.h"
-#include "render/feature_needs.h"
 #include "render/renderer.h"
 
 namespace whittle::cli {
@@ -37,30 +37,12 @@ struct RenderOptions {
   std::vector<AovOutput> aovs;  ///< aovTexts, parsed
 };
 
-/// Rays for each pixel where a target or a limit decides: more than anyone waits for, few enough for every
-/// sampler.
-constexpr int kUntilStopped = 1 << 16;
-
-/// A target or a time limit without --rays-per-pixel means: as many as it takes.
-void settleRaysPerPixel(RenderOptions& o, bool given) {
-  if (given) return;
-  if (o.settings.targetError <= 0.0 && o.settings.timeLimit <= 0.0) {
-    if (o.settings.adaptive)
-      throw InputError("--adaptive: give --rays-per-pixel (on average), --target-error or --time-limit");
-    return;
-  }
-  if (o.settings.sampler == Sampler::Stratified)
-    throw InputError("--sampler: stratified divides each pixel by --rays-per-pixel, which is not given");
-  o.settings.raysPerPixel = kUntilStopped;
-}
-
 /// Fills in the default output and refuses, before anything is loaded, what could not be written at the end.
 void checkOutputs(RenderOptions& o) {
   if (o.outputs.empty() && o.stats.empty() && o.trace.empty() && o.aovTexts.empty() && !o.profile)
     o.outputs.emplace_back(o.scene.file.stem().string() + ".png");
   OutputCheck check(o.scene.file, o.settings.width, o.settings.height);
-  for (const auto& text : o.aovTexts)
-    o.aovs.push_back(parseAov(text, {"depth", "normal", "albedo", "primitive", "samples"}));
+  for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, kRenderAovs));
   for (const auto& file : o.outputs) check.picture("--output", file);
   for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
   check.text("--stats", o.stats);
@@ -126,6 +108,8 @@ ImageMetadata pictureMetadata(const RenderOptions& o, const Stats& stats) {
           {"whittle:scene", o.scene.file.filename().string()},
           {"whittle:rays", fmt::format("primary {} impulse {} shadow {}", stats.rays.primary,
                                        stats.rays.impulse, stats.rays.shadow)},
+          {"whittle:raysPerPixel", fmt::format("least {} mean {:g} most {}", stats.samples.least,
+                                               stats.samples.mean, stats.samples.most)},
           {"whittle:renderSeconds", fmt::format("{:.6f}", stats.time.render)}};
 }
 
@@ -188,7 +172,7 @@ void runRender(RenderOptions& o) {
   limitCpuThreads(o.settings.threads);
 
   Notices notices;
-  notices.notes = uselessKeeps(o.settings);
+  notices.notes = uselessOptions(o.settings);
   const Scene scene = loadScene(o.scene, notices);
   if (trace) trace->phase("load", start);
   const double load = since(start);
@@ -228,21 +212,15 @@ void addRender(CLI::App& app, int& status) {
   c->add_flag("--quiet", o->scene.quiet,
               "no progress, notes or summary; warnings, errors and --profile only");
   addPictureOptions(*c, o->settings);
-  c->option_defaults()->group("Error against time");
-  addReal(*c, "--target-error", o->settings.targetError, 0, 1e30, "E",
-          "stop once the estimated RMSE in W/(m² sr) is at most this", "0: never");
-  addReal(*c, "--time-limit", o->settings.timeLimit, 0, 1e9, "SECONDS",
-          "stop rendering after this; every pixel gets one ray, however long that takes", "0: none");
-  c->add_flag("--adaptive", o->settings.adaptive,
-              "more rays where the estimated error is largest, beyond 16 for each pixel");
+  addErrorOptions(*c, o->settings);
   addFile(*c, "--reference", o->reference, "FILE",
-          "measure the true RMSE against this .exr after each pass, for --stats");
+          "measure the true RMSE against this .exr after each pass; the summary has the last, --stats all");
   addDeviceOptions(*c, o->settings);
   addFile(*c, "--kernels", o->kernelFolder, "FOLDER",
           "read kernels from here, not from the program (for developers)");
   c->footer("Example: whittle render scene.glb -o a.png -o a.exr --stats stats.json");
   c->callback([o, c, &status] {
-    settleRaysPerPixel(*o, c->count("--rays-per-pixel") > 0);
+    settleRaysPerPixel(*c, o->settings);
     runRender(*o);
     status = 0;
   });

@@ -84,6 +84,14 @@ double estimateError(const std::vector<double>& blockVariances, const SampleCoun
   return std::sqrt(total / static_cast<double>(counts.pixels()));
 }
 
+double meanOfChannels(const FilmSums& sums, const SampleCounts& counts) {
+  double total = 0.0;
+  for (std::size_t p = 0; p < counts.pixels(); ++p)
+    for (int c = 0; c < 3; ++c)
+      total += plane(sums, FILM_SUM + c, FILM_COMPENSATION + c, p) / std::max(1U, counts.ofPixel(p));
+  return total / (3.0 * static_cast<double>(counts.pixels()));
+}
+
 FloatImage sampleImage(const FilmSums& sums, const SampleCounts& counts) {
   FloatImage image{sums.width, sums.height, 1, {}};
   image.pixels.resize(counts.pixels());

@@ -35,6 +35,9 @@ std::vector<double> blockVariances(const FilmSums& sums, const SampleCounts& cou
 /// root of its expected square). blockVariances over all pixels.
 double estimateError(const std::vector<double>& blockVariances, const SampleCounts& counts);
 
+/// Mean radiance over pixels and colour channels, W/(m² sr).
+double meanOfChannels(const FilmSums& sums, const SampleCounts& counts);
+
 /// Samples of each pixel, one channel.
 FloatImage sampleImage(const FilmSums& sums, const SampleCounts& counts);
 

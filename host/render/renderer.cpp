@@ -262,7 +262,6 @@ class Session {
     stats_.scene.lights = scene_.lights.size();
     stats_.scene.textures = scene_.images.size();
     usedSettings();
-    stats_.settings.raysPerPixel = static_cast<int>(std::lround(loop_->counts().mean()));
     stats_.samples = {loop_->counts().least(), loop_->counts().most(), loop_->counts().mean()};
     stats_.error = loop_->error();
     stats_.searchUsed = features_.has(Feature::TREE) ? "tree" : "array";

@@ -29,7 +29,7 @@ SamplePass uniformPass(const SampleCounts& counts, std::uint32_t samples) {
 }
 
 std::vector<SamplePass> adaptivePasses(const SampleCounts& counts, const std::vector<double>& blockVariances,
-                                       std::uint64_t budget) {
+                                       std::uint64_t budget, std::uint64_t limit) {
   const double behind = counts.mean() / 8.0;
   std::vector<std::uint32_t> order(counts.blocks());
   std::iota(order.begin(), order.end(), 0U);
@@ -41,20 +41,25 @@ std::vector<SamplePass> adaptivePasses(const SampleCounts& counts, const std::ve
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return lags(a) != lags(b) ? lags(a) : gain(a) > gain(b);
   });
-  std::map<std::uint32_t, SamplePass> passes;  // by the samples that the blocks have
+  // By the samples that the blocks have, and get.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, SamplePass> passes;
   std::uint64_t given = 0;
   for (const std::uint32_t b : order) {
     const std::uint32_t n = counts.ofBlock(b);
     const std::uint64_t cost = std::uint64_t{n} * counts.pixelsOf(b);
-    if (given > 0 && given + cost > budget) break;
+    if (given > 0 && given + cost > budget && budget < limit) break;
     if (!lags(b) && !(gain(b) > 0.0)) break;  // nor does any that follows
-    given += cost;
-    SamplePass& pass = passes[n];
-    pass.firstSample = pass.samples = n;
+    const auto samples =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(n, (limit - given) / counts.pixelsOf(b)));
+    if (samples == 0) break;
+    given += std::uint64_t{samples} * counts.pixelsOf(b);
+    SamplePass& pass = passes[{n, samples}];
+    pass.firstSample = n;
+    pass.samples = samples;
     pass.blocks.push_back(b);
   }
   std::vector<SamplePass> list;
-  for (auto& [n, pass] : passes) {
+  for (auto& [key, pass] : passes) {
     std::sort(pass.blocks.begin(), pass.blocks.end());
     list.push_back(std::move(pass));
   }

@@ -9,6 +9,9 @@
 
 namespace whittle {
 
+/// Samples of each pixel before some get more than others.
+inline constexpr std::uint32_t kPilotSamples = 16;
+
 class SampleCounts {
  public:
   explicit SampleCounts(std::size_t pixels)
@@ -43,12 +46,13 @@ struct SamplePass {
 SamplePass uniformPass(const SampleCounts& counts, std::uint32_t samples);
 
 /// Doubles the samples of the blocks where that takes most off the picture's error for each sample, until
-/// `budget` samples are given out (at least one block's); no passes where no block varies. Blocks that lag
-/// behind an eighth of the mean come first, whatever their variance says: few samples can miss what is small.
-/// blockVariances: see film.h. Choosing by the variance of the very samples that are kept biases the mean
-/// (Kirk and Arvo 1991); choosing whole blocks, from 16 samples of each pixel on, keeps that far below the
-/// error itself.
+/// `budget` samples are given out, or one block's if that is more. No more than `limit` are: the block that
+/// would go beyond gets what is left. No passes where no block varies, or for less than a block. Blocks that
+/// lag behind an eighth of the mean come first, whatever their variance says: few samples can miss what is
+/// small. blockVariances: see film.h. Choosing by the variance of the very samples that are kept biases the
+/// mean (Kirk and Arvo 1991); choosing whole blocks, from 16 samples of each pixel on, keeps that far below
+/// the error itself.
 std::vector<SamplePass> adaptivePasses(const SampleCounts& counts, const std::vector<double>& blockVariances,
-                                       std::uint64_t budget);
+                                       std::uint64_t budget, std::uint64_t limit);
 
 }  // namespace whittle

@@ -1,4 +1,5 @@
-// Doubling passes: each look at the error costs a read of the film, so that there are few.
+// Doubling passes, the last as long as a target is expected to need: each look at the error costs a read of
+// the film, so that there are few.
 #include "render/sampling_loop.h"
 
 #include <fmt/format.h>
@@ -11,13 +12,21 @@
 namespace whittle {
 namespace {
 
-/// Samples of each pixel before some get more than others.
-constexpr std::uint32_t kPilotSamples = 16;
 /// Of the samples so far, what an adaptive round gives out: small enough that blocks can part ways, large
 /// enough that looks are few (growth of a quarter: 12 looks for 16 times the samples).
-constexpr std::uint64_t kRoundsToDouble = 4;
+constexpr double kAdaptiveGrowth = 0.25;
+/// The least that a pass adds on the way to a target, so that looks are few where the estimate keeps rising.
+constexpr double kLeastGrowth = 1.0 / 16.0;
+/// More than a target is expected to need, so that it is seldom missed by a hair: estimates go on changing.
+constexpr double kTargetMargin = 1.02;
 /// How long a batch may go on after the limit; what it has done is lost if it takes longer.
 constexpr double kLateShare = 0.1, kLateSeconds = 0.25;
+
+/// At least one.
+std::uint64_t shareOf(std::uint64_t samples, double share) {
+  return std::max<std::uint64_t>(1,
+                                 static_cast<std::uint64_t>(std::ceil(static_cast<double>(samples) * share)));
+}
 
 }  // namespace
 
@@ -32,7 +41,7 @@ SamplingLoop::SamplingLoop(Compute& compute, Wavefront& wavefront, const Setting
       cutOffShares_(static_cast<std::size_t>(settings.bounces), 0.0) {}
 
 bool SamplingLoop::looks() const {
-  return settings_.timeLimit > 0.0 || settings_.targetError > 0.0 || settings_.adaptive || hooks_.reference;
+  return settings_.timeLimit > 0.0 || hasErrorTarget(settings_) || settings_.adaptive || hooks_.reference;
 }
 
 void SamplingLoop::run() {
@@ -46,10 +55,7 @@ void SamplingLoop::run() {
     }
     if (passes.size() == 1) passSamples_ = passes.front().samples, passSeconds_ = elapsed() - began;
     if (looks()) look();
-    if (stopped) break;
-    if (settings_.targetError > 0.0 && counts_.least() >= 2 &&
-        error_.back().estimate <= settings_.targetError)
-      break;
+    if (stopped || (!error_.empty() && meetsTarget(settings_, error_.back()))) break;
   }
   clTry("waiting for the last kernels", [&] { compute_.queue().finish(); });
   seconds_ = elapsed();
@@ -61,19 +67,31 @@ std::vector<SamplePass> SamplingLoop::nextPasses() const {
   const std::uint64_t done = counts_.total();
   if (done >= wanted) return {};
   if (settings_.adaptive && counts_.least() >= kPilotSamples)
-    return adaptivePasses(counts_, variances_, std::min(wanted - done, done / kRoundsToDouble));
+    return adaptivePasses(counts_, variances_,
+                          std::min(wanted - done, shareOf(done, growth(kAdaptiveGrowth))), wanted - done);
   const std::uint32_t samples = nextSamples();
   if (samples == 0) return {};
   return {uniformPass(counts_, samples)};
 }
 
-/// Samples of each pixel in the next pass: as many as there are so far, as long as they fit into the time
-/// that is left; 0: none fits any more.
+/// Of the samples so far, what a pass adds: what a target is expected to need, but at most `most`. The
+/// estimate falls with the root of the samples at least.
+double SamplingLoop::growth(double most) const {
+  if (!hasErrorTarget(settings_) || counts_.least() < 2) return most;
+  const double ratio = error_.back().estimate / errorTarget(settings_, error_.back());
+  const double missing = kTargetMargin * ratio * ratio - 1.0;
+  if (!(missing < most)) return most;  // NaN and infinity too: nothing is known of the error then
+  return std::max(missing, kLeastGrowth);
+}
+
+/// Samples of each pixel in the next pass: at most as many as there are so far, as long as they fit into the
+/// time that is left; 0: none fits any more.
 std::uint32_t SamplingLoop::nextSamples() const {
   const auto total = static_cast<std::uint32_t>(settings_.raysPerPixel);
   const std::uint32_t done = counts_.least();
   if (!looks()) return total;
-  const std::uint32_t wanted = std::min(std::max(1U, done), total - done);
+  const auto wanted =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(shareOf(done, growth(1.0)), total - done));
   if (settings_.timeLimit <= 0.0 || done == 0) return wanted;
   const double fitting =
       (settings_.timeLimit - elapsed()) / std::max(passSeconds_, 1e-9) * static_cast<double>(passSamples_);
@@ -150,8 +168,9 @@ void SamplingLoop::reportProgress(double samples) {
 double SamplingLoop::expectedSamples() const {
   const double done = static_cast<double>(counts_.total()), pixels = static_cast<double>(counts_.pixels());
   double samples = pixels * settings_.raysPerPixel;
-  if (settings_.targetError > 0.0 && !error_.empty() && error_.back().estimate > 0.0)
-    samples = std::min(samples, done * std::pow(error_.back().estimate / settings_.targetError, 2));
+  if (hasErrorTarget(settings_) && !error_.empty() && error_.back().estimate > 0.0)
+    samples =
+        std::min(samples, done * std::pow(error_.back().estimate / errorTarget(settings_, error_.back()), 2));
   if (settings_.timeLimit > 0.0 && done > 0.0)
     samples = std::min(samples, done * settings_.timeLimit / std::max(elapsed(), 1e-9));
   return std::max(samples, pixels + done);
@@ -164,7 +183,7 @@ void SamplingLoop::look() {
   if (!estimates && !hooks_.reference) return;
   const double now = seconds_ > 0.0 ? seconds_ : elapsed();
   const FilmSums& sums = film();
-  ErrorPoint point{now, counts_.mean(), 0.0, {}};
+  ErrorPoint point{now, counts_.mean(), 0.0, {}, meanOfChannels(sums, counts_)};
   if (estimates) {
     variances_ = blockVariances(sums, counts_);
     point.estimate = estimateError(variances_, counts_);

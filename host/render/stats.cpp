@@ -32,6 +32,15 @@ std::vector<std::string> keptFeatures(const Settings& s) {
 
 }  // namespace
 
+double errorTarget(const Settings& s, const ErrorPoint& point) {
+  return s.targetErrorRelative > 0.0 ? s.targetErrorRelative * point.mean : s.targetError;
+}
+
+bool meetsTarget(const Settings& s, const ErrorPoint& point) {
+  return hasErrorTarget(s) && point.raysPerPixel >= 2 && std::isfinite(point.estimate) &&
+         point.estimate <= errorTarget(s, point);
+}
+
 nlohmann::ordered_json settingsToJson(const Settings& s) {
   return {{"width", s.width},
           {"height", s.height},
@@ -57,6 +66,7 @@ nlohmann::ordered_json settingsToJson(const Settings& s) {
           {"keepFeatures", keptFeatures(s)},
           {"adaptive", s.adaptive},
           {"targetError", s.targetError},
+          {"targetErrorRelative", s.targetErrorRelative},
           {"timeLimit", s.timeLimit}};
 }
 
@@ -145,7 +155,8 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
          {"raysPerPixel", wholeIfWhole(e.raysPerPixel)},
          {"estimate",
           e.raysPerPixel >= 2 ? nlohmann::ordered_json(e.estimate) : nlohmann::ordered_json(nullptr)},
-         {"rmse", e.rmse ? nlohmann::ordered_json(*e.rmse) : nlohmann::ordered_json(nullptr)}});
+         {"rmse", e.rmse ? nlohmann::ordered_json(*e.rmse) : nlohmann::ordered_json(nullptr)},
+         {"mean", e.mean}});
   json["samples"] = {
       {"least", s.samples.least}, {"mean", wholeIfWhole(s.samples.mean)}, {"most", s.samples.most}};
   json["cutOffThroughput"] = s.cutOffThroughput;

@@ -52,14 +52,22 @@ struct ErrorPoint {
   double raysPerPixel = 0.0;  ///< on average
   double estimate = 0.0;  ///< what rmse is expected to be, from the samples' variance (film.h), W/(m² sr)
   std::optional<double> rmse;  ///< against RenderHooks::reference, all colour channels, W/(m² sr)
+  double mean = 0.0;           ///< radiance of the picture, over pixels and colour channels, W/(m² sr)
 };
+
+/// What the estimate at this point must come down to, W/(m² sr); 0: no target was asked for, or a share of a
+/// black picture.
+double errorTarget(const Settings& settings, const ErrorPoint& point);
+/// Whether a target was asked for and the estimate is known to be within it. A black picture in which nothing
+/// varies is within any share of its mean.
+bool meetsTarget(const Settings& settings, const ErrorPoint& point);
 
 struct Stats {
   struct {
     std::string file;
     std::uint64_t triangles = 0, droppedTriangles = 0, materials = 0, lights = 0, textures = 0;
   } scene;
-  Settings settings;  ///< as used: camera resolved, raysPerPixel reached
+  Settings settings;  ///< as used; raysPerPixel is what was asked for, `samples` what was reached
   std::string searchUsed;
   struct {
     std::string platform, name, version, driver;

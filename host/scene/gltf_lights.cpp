@@ -93,10 +93,11 @@ std::optional<Light> readLight(const Json& json, std::size_t index, Notices& not
         static_cast<float>(intensity * (color.size() == 3 ? color[at(i)].get<double>() : 1.0));
   }
   for (int i = 0; i < 3; ++i) {
-    if (!(light.intensity[i] >= 0.0F) || !std::isfinite(light.intensity[i])) {
-      notices.warn(fmt::format("{}: its intensity is negative or not finite; the light is left out", label));
-      return std::nullopt;
-    }
+    if (light.intensity[i] >= 0.0F && std::isfinite(light.intensity[i])) continue;
+    notices.warn(
+        fmt::format("{}: its intensity is {}; the light is left out", label,
+                    light.intensity[i] > 0.0F ? "beyond 3.4e38, the most that a float holds" : "negative"));
+    return std::nullopt;
   }
   if (json.contains("range")) {
     const auto range = static_cast<float>(number(json, "range", 0.0));

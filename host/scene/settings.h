@@ -38,10 +38,14 @@ struct Settings {
   std::uint64_t keepFeatures = 0;  ///< bits of kernels/shared/features.h that are kept, needed or not
   bool adaptive = false;           ///< more samples where the picture's error is; raysPerPixel on average
   double timeLimit = 0.0;          ///< seconds of rendering, but one ray for each pixel at least; 0: none
-  double targetError = 0.0;        ///< stop once the estimated RMSE of the picture is below; 0: never
-  bool aovs = false;               ///< keep depth, normal, albedo and primitive of each pixel's first sample
-  float exposure = 0.0F;           ///< stops, for .png/.jpg only
+  double targetError = 0.0;  ///< W/(m² sr): stop once the picture's estimated RMSE is at most this; 0: never
+  double targetErrorRelative =
+      0.0;                ///< the same, as a share of the picture's mean radiance; goes before targetError
+  bool aovs = false;      ///< keep depth, normal, albedo and primitive of each pixel's first sample
+  float exposure = 0.0F;  ///< stops, for .png/.jpg only
 };
+
+inline bool hasErrorTarget(const Settings& s) { return s.targetError > 0.0 || s.targetErrorRelative > 0.0; }
 
 /// Far above any throughput: everything is cut off.
 inline constexpr float kLargestCutoff = 1000.0F;

@@ -53,6 +53,7 @@ TEST(Outputs, ExrCarriesSettingsAndRayCounts) {
   const auto expected = "primary " + rays["primary"].dump() + " impulse " + rays["impulse"].dump() +
                         " shadow " + rays["shadow"].dump();
   EXPECT_EQ(input->spec().get_string_attribute("whittle:rays"), expected);
+  EXPECT_EQ(input->spec().get_string_attribute("whittle:raysPerPixel"), "least 1 mean 1 most 1");
   EXPECT_GE(std::stod(input->spec().get_string_attribute("whittle:renderSeconds")), 0.0);
 }
 

@@ -110,18 +110,35 @@ TEST_P(Plan, IsWhatARenderDoes) {
     if (b["name"] == "rays") continue;
     EXPECT_EQ(bytes[b["name"]], b["bytes"]) << b["name"];
   }
+  std::set<std::string> named;
+  for (const auto& b : stats["memory"]["buffers"]) named.insert(b["name"]);
+  for (const auto& b : info["buffers"])
+    EXPECT_TRUE(named.contains(b["name"])) << b["name"] << " is not there";
   EXPECT_EQ(info["features"]["used"], stats["features"]["used"]);
   EXPECT_EQ(info["features"]["kept"], stats["features"]["kept"]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cli, Plan,
-                         testing::Values(std::vector<std::string>{scene()},
-                                         std::vector<std::string>{scene(), "--no-shadows"},
-                                         std::vector<std::string>{scene(), "--bounces", "1"},
-                                         std::vector<std::string>{scene(), "--keep-features", "alpha mask"},
-                                         std::vector<std::string>{scene("emission.glb")},
-                                         std::vector<std::string>{scene("textured.glb")},
-                                         std::vector<std::string>{scene("spot_cone.glb")}));
+INSTANTIATE_TEST_SUITE_P(
+    Cli, Plan,
+    testing::Values(std::vector<std::string>{scene()}, std::vector<std::string>{scene(), "--no-shadows"},
+                    std::vector<std::string>{scene(), "--bounces", "1"},
+                    std::vector<std::string>{scene(), "--keep-features", "alpha mask"},
+                    std::vector<std::string>{scene(), "--aov", "depth=d.exr"},
+                    std::vector<std::string>{scene(), "--adaptive", "--rays-per-pixel", "18"},
+                    std::vector<std::string>{scene(), "--target-error", "200%"},
+                    std::vector<std::string>{scene("emission.glb")},
+                    std::vector<std::string>{scene("textured.glb")},
+                    std::vector<std::string>{scene("spot_cone.glb")}));
+
+TEST(Info, TakesAnAuxiliaryOutputWithoutAFile) {
+  const auto names = [](const Json& info) {
+    std::set<std::string> found;
+    for (const auto& b : info["buffers"]) found.insert(b["name"]);
+    return found;
+  };
+  EXPECT_TRUE(names(infoOf({scene(), "--aov", "depth"})).contains("aovs"));
+  EXPECT_FALSE(names(infoOf({scene()})).contains("aovs"));
+}
 
 TEST(Devices, JsonListsThem) {
   const Outcome run = runWhittle({"devices", "--json"});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "cli/text.h"
@@ -31,17 +32,77 @@ Json statsOf(const std::vector<std::string>& more) {
   return readJson(folder / "s.json");
 }
 
+/// What a small render prints.
+std::string summaryOf(const std::vector<std::string>& more, const Folder& folder = {}) {
+  const Outcome run = runWhittle(smallRender(more), {folder.path(), {}});
+  EXPECT_EQ(run.status, 0) << run.err;
+  return run.out;
+}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
 TEST(Summary, SaysThatATargetWasMissed) {
-  const Folder folder;
-  const auto missed = [&](const std::vector<std::string>& more) {
-    const Outcome run = runWhittle(smallRender(more), {folder.path(), {}});
-    EXPECT_EQ(run.status, 0) << run.err;
-    return run.out.find("not the target of 0.0001") != std::string::npos;
+  const auto missed = [](const std::vector<std::string>& more) {
+    return has(summaryOf(more), "not the target of 0.0001 W/(m² sr)");
   };
   EXPECT_TRUE(missed({"--target-error", "1e-4", "--rays-per-pixel", "2"}));
   EXPECT_TRUE(missed({"--target-error", "1e-4", "--rays-per-pixel", "1"})) << "nothing is estimated";
   EXPECT_FALSE(missed({"--target-error", "100"}));
   EXPECT_FALSE(missed({"--rays-per-pixel", "2"}));
+}
+
+TEST(Summary, SpeaksOfTheMeanWhereTheTargetDoes) {
+  const std::string missed = summaryOf({"--target-error", "0.01%", "--rays-per-pixel", "2"});
+  EXPECT_TRUE(has(missed, "not the target of 0.01 % of the mean")) << missed;
+  const std::string met = summaryOf({"--target-error", "0.01", "--target-error", "200 %"});
+  EXPECT_FALSE(has(met, "not the target")) << met;
+  EXPECT_TRUE(has(met, "2 rays per pixel")) << met << "the last target counts, and two rays meet it";
+}
+
+/// Theory gives the error of independent samples; the others do better.
+TEST(Summary, SaysWhichWayTheEstimateErrs) {
+  EXPECT_TRUE(has(summaryOf({"--rays-per-pixel", "4"}), "estimated error: about "));
+  for (const char* sampler : {"stratified", "sobol"})
+    EXPECT_TRUE(
+        has(summaryOf({"--rays-per-pixel", "4", "--sampler", sampler}), "estimated error: at most about "));
+}
+
+TEST(Summary, HasTheTrueErrorBesideTheEstimate) {
+  const Folder folder;
+  const std::string without = summaryOf({"--rays-per-pixel", "4", "--seed", "9", "-o", "ref.exr"}, folder);
+  EXPECT_FALSE(has(without, "true error")) << without;
+  for (const char* rays : {"1", "2"}) {
+    const std::string text =
+        summaryOf({"--rays-per-pixel", rays, "--reference", "ref.exr", "-o", "a.exr"}, folder);
+    const Outcome compared = runWhittle({"compare", "a.exr", "ref.exr", "--json"}, {folder.path(), {}});
+    const double rmse = Json::parse(compared.out)["rmse"];
+    const FloatImage picture = readFloatImage(folder / "a.exr");
+    const double mean = std::accumulate(picture.pixels.begin(), picture.pixels.end(), 0.0) / (32 * 24 * 3);
+    const std::string line = "true error: " + cli::formatReal(rmse) + " W/(m² sr), " +
+                             cli::formatReal(100 * rmse / mean) + " % of the mean";
+    EXPECT_TRUE(has(text, line)) << line << " in:\n" << text;
+    EXPECT_EQ(has(text, "estimated error"), std::string(rays) == "2") << text;
+  }
+}
+
+TEST(Summary, NotesThatAdaptiveHasNothingToGiveOut) {
+  const Folder folder;
+  for (const char* rays : {"16", "17"}) {
+    const Outcome run =
+        runWhittle(smallRender({"--adaptive", "--rays-per-pixel", rays}), {folder.path(), {}});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(has(run.err, "note: --adaptive: changes nothing up to 16 rays"), std::string(rays) == "16")
+        << run.err;
+  }
+}
+
+TEST(Summary, CountsTheRaysThatWereReached) {
+  const Folder folder;
+  const Outcome met = runWhittle(
+      smallRender({"--rays-per-pixel", "64", "--target-error", "100", "-o", "a.png"}), {folder.path(), {}});
+  EXPECT_NE(met.out.find(" triangles, 2 rays per pixel\n"), std::string::npos) << met.out << met.err;
+  const Outcome adaptive =
+      runWhittle(smallRender({"--rays-per-pixel", "40", "--adaptive", "-o", "a.png"}), {folder.path(), {}});
+  EXPECT_NE(adaptive.out.find(" rays per pixel (16 to "), std::string::npos) << adaptive.out << adaptive.err;
 }
 
 TEST(Stats, HoldsEveryKeyOfTheContract) {
@@ -70,7 +131,7 @@ TEST(Stats, HoldsEveryKeyOfTheContract) {
   for (const auto& stage : s["stages"]) expectKeys(stage, {"name", "launches", "seconds", "items"}, "stage");
   ASSERT_FALSE(s["error"].empty());
   for (const auto& point : s["error"])
-    expectKeys(point, {"seconds", "raysPerPixel", "estimate", "rmse"}, "error");
+    expectKeys(point, {"seconds", "raysPerPixel", "estimate", "rmse", "mean"}, "error");
 }
 
 TEST(Stats, CountsAddUp) {
@@ -203,21 +264,36 @@ TEST(Stats, TimeLimitStopsEarlyAndSaysHowFarItCame) {
   // A limit that the first pass of one ray has passed already: the second pass must not start… but two rays
   // give an estimate.
   const auto s = statsOf({"--rays-per-pixel", "1048576", "--time-limit", "0.000001"});
-  EXPECT_LE(s["settings"]["raysPerPixel"], 2);
-  EXPECT_EQ(s["rays"]["primary"], 32 * 24 * s["settings"]["raysPerPixel"].get<int>());
+  EXPECT_EQ(s["settings"]["raysPerPixel"], 1048576) << "what was asked for";
+  EXPECT_LE(s["samples"]["most"], 2);
+  EXPECT_EQ(s["rays"]["primary"], 32 * 24 * s["samples"]["mean"].get<int>());
 }
 
 TEST(Stats, ATargetWithoutACountTakesAsManyRaysAsItNeeds) {
   const auto json = statsOf({"--target-error", "0.05"});
   const auto& last = json["error"].back();
-  EXPECT_GE(json["settings"]["raysPerPixel"], 2);
-  EXPECT_EQ(last["raysPerPixel"], json["settings"]["raysPerPixel"]);
+  EXPECT_EQ(json["settings"]["raysPerPixel"], 65536) << "what stood for the count that was not given";
+  EXPECT_GE(json["samples"]["least"], 2);
+  EXPECT_EQ(last["raysPerPixel"], json["samples"]["mean"]);
+  EXPECT_EQ(json["samples"]["least"], json["samples"]["most"]);
   EXPECT_LE(last["estimate"], 0.05);
+}
+
+TEST(Stats, ATargetIsAbsoluteOrAShareOfTheMean) {
+  const auto share = statsOf({"--target-error", "0.01", "--target-error", "50%"});
+  EXPECT_EQ(share["settings"]["targetError"], 0);
+  EXPECT_EQ(share["settings"]["targetErrorRelative"], 0.5);
+  const auto& last = share["error"].back();
+  EXPECT_LE(last["estimate"].get<double>(), 0.5 * last["mean"].get<double>());
+  const auto absolute = statsOf({"--target-error", "50%", "--target-error", "0.25"});
+  EXPECT_EQ(absolute["settings"]["targetError"], 0.25);
+  EXPECT_EQ(absolute["settings"]["targetErrorRelative"], 0);
 }
 
 TEST(Stats, TargetErrorStopsOnceTheEstimateIsBelow) {
   const auto loose = statsOf({"--rays-per-pixel", "4096", "--target-error", "0.02"});
-  EXPECT_LT(loose["settings"]["raysPerPixel"], 4096);
+  EXPECT_EQ(loose["settings"]["raysPerPixel"], 4096);
+  EXPECT_LT(loose["samples"]["most"], 4096);
   EXPECT_LE(loose["error"].back()["estimate"], 0.02);
   for (std::size_t i = 0; i + 1 < loose["error"].size(); ++i)
     EXPECT_GT(loose["error"][i]["estimate"], 0.02) << "it should have stopped at point " << i;

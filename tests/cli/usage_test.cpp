@@ -60,6 +60,13 @@ std::vector<Mistake> mistakes() {
       {"CutoffNegative", {"render", s, "--cutoff", "-0.1"}, {"--cutoff", "'-0.1'", "0 to 1000"}},
       {"CutoffNanToReference", {"reference", s, "-o", "a.exr", "--cutoff", "nan"}, {"--cutoff", "'nan'"}},
       {"TimeLimitWord", {"render", s, "--time-limit", "soon"}, {"--time-limit", "'soon'"}},
+      {"TargetNegativeShare",
+       {"render", s, "--target-error", "-1%"},
+       {"--target-error", "'-1%'", "P% of the mean"}},
+      {"TargetShareOfNothing", {"render", s, "--target-error", "%"}, {"--target-error", "'%'"}},
+      {"TargetPerMille", {"info", s, "--target-error", "1‰"}, {"--target-error", "'1‰'"}},
+      {"TargetOfTwoShares", {"render", s, "--target-error", "1%%"}, {"--target-error", "'1%%'"}},
+      {"TargetNan", {"render", s, "--target-error", "nan%"}, {"--target-error", "'nan%'"}},
       {"SamplerUnknown",
        {"render", s, "--sampler", "halton"},
        {"--sampler", "'halton'", "random|stratified|sobol"}},
@@ -76,6 +83,9 @@ std::vector<Mistake> mistakes() {
       {"AovUnknown",
        {"render", s, "--aov", "colour=a.exr"},
        {"--aov", "colour", "depth, normal, albedo, primitive"}},
+      {"AovUnknownToInfo", {"info", s, "--aov", "colour"}, {"--aov", "'colour'", "depth, normal"}},
+      {"AovNotExrToInfo", {"info", s, "--aov", "depth=a.png"}, {"--aov", "a.png", ".exr"}},
+      {"AdaptiveWithoutACountToInfo", {"info", s, "--adaptive"}, {"--adaptive", "--rays-per-pixel"}},
       {"AovNotExr", {"render", s, "--aov", "depth=a.png"}, {"--aov", "a.png", ".exr"}},
       {"AovUnknownToReference",
        {"reference", s, "-o", "a.exr", "--aov", "normal=b.exr"},
@@ -199,9 +209,16 @@ TEST(UsageOfFiles, KernelsOfAFolderSayWhatIsWrong) {
   EXPECT_NE(said.substr(line, log - line).find("thisIsNotDeclared"), std::string::npos) << said;
   EXPECT_NE(said.find("thisIsNotDeclared", log), std::string::npos) << said;
   std::filesystem::remove(broken);
-  EXPECT_NE(render().err.find("lib/bsdf.cl cannot be read: No such file"), std::string::npos);
+  const auto expectUnreadable = [&](const char* why) {
+    const Outcome run = render();
+    EXPECT_EQ(run.status, 2) << "a folder without its files is wrong input";
+    EXPECT_NE(run.err.find(std::string("whittle: --kernels: k/lib/bsdf.cl cannot be read: ") + why),
+              std::string::npos)
+        << run.err;
+  };
+  expectUnreadable("No such file");
   std::filesystem::create_directory(broken);
-  EXPECT_NE(render().err.find("lib/bsdf.cl cannot be read: Is a directory"), std::string::npos);
+  expectUnreadable("Is a directory");
 }
 
 TEST(UsageOfFiles, TheLogOfKernelsThatAreBuiltInGoesToAFile) {

@@ -1,5 +1,6 @@
 // What settings ask for, and the smallest and strangest pictures.
 #include <cmath>
+#include <numeric>
 
 #include "reference/camera.h"
 #include "render/camera_to_device.h"
@@ -105,26 +106,85 @@ TEST(Settings, ATimeLimitStopsEarlyWithAWholePicture) {
   settings.raysPerPixel = 1 << 20;
   settings.timeLimit = 0.05;
   const RenderResult limited = renderOnDevice(scene, settings);
-  EXPECT_LT(limited.stats.settings.raysPerPixel, 1 << 20);
-  settings.raysPerPixel = limited.stats.settings.raysPerPixel;
+  EXPECT_EQ(limited.stats.settings.raysPerPixel, 1 << 20) << "what was asked for";
+  EXPECT_LT(limited.stats.samples.most, 1U << 20);
+  settings.raysPerPixel = static_cast<int>(limited.stats.samples.most);
   settings.timeLimit = 0;
   // Random samples do not know how many there will be.
   EXPECT_EQ(differingPixels(limited.radiance, renderOnDevice(scene, settings).radiance), 0U);
 }
 
+double meanOf(const FloatImage& image) {
+  return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0) /
+         static_cast<double>(image.pixels.size());
+}
+
+/// Its estimate with n rays for each pixel, without a target.
+ErrorPoint plainError(const Scene& scene, Settings settings, std::uint32_t n, FloatImage& picture) {
+  settings.raysPerPixel = static_cast<int>(n);
+  settings.targetError = settings.targetErrorRelative = 0.0;
+  RenderResult result = renderOnDevice(scene, settings);
+  picture = std::move(result.radiance);
+  return result.stats.error.back();
+}
+
+/// Not four fifths of the rays would have been enough, and the picture is that of as many without a target.
+void expectJustEnough(const Scene& scene, const Settings& settings, const RenderResult& enough) {
+  const std::uint32_t n = enough.stats.samples.most;
+  EXPECT_EQ(enough.stats.samples.least, n);
+  EXPECT_EQ(enough.stats.settings.raysPerPixel, settings.raysPerPixel) << "what was asked for";
+  EXPECT_TRUE(meetsTarget(settings, enough.stats.error.back())) << enough.stats.error.back().estimate;
+  FloatImage same, fewer;
+  EXPECT_EQ(plainError(scene, settings, n, same).estimate, enough.stats.error.back().estimate);
+  EXPECT_EQ(differingPixels(same, enough.radiance), 0U);
+  EXPECT_FALSE(meetsTarget(settings, plainError(scene, settings, n * 4 / 5, fewer))) << n << " rays";
+}
+
 TEST(Settings, ATargetErrorStopsOnceItIsReached) {
   Settings settings = smallSettings(2);
+  const Scene scene = ownScene("anti_aliasing");
+  FloatImage four;
+  // About 20 rays at one over the root, which doubling would make 32.
+  settings.targetError = plainError(scene, settings, 4, four).estimate / std::sqrt(5.0);
   settings.raysPerPixel = 256;
-  const RenderResult first = renderOnDevice(ownScene("anti_aliasing"), [&] {
-    Settings four = settings;
-    four.raysPerPixel = 4;
-    return four;
-  }());
-  settings.targetError = first.stats.error.back().estimate / 2;  // about 16 samples at one over the root
-  const RenderResult enough = renderOnDevice(ownScene("anti_aliasing"), settings);
-  EXPECT_LE(enough.stats.error.back().estimate, settings.targetError);
-  EXPECT_GE(enough.stats.settings.raysPerPixel, 8);
-  EXPECT_LE(enough.stats.settings.raysPerPixel, 64);
+  expectJustEnough(scene, settings, renderOnDevice(scene, settings));
+}
+
+TEST(Settings, ATargetErrorCanBeAShareOfTheMean) {
+  Settings settings = smallSettings(2);
+  const Scene scene = ownScene("anti_aliasing");
+  FloatImage four;
+  const double estimate = plainError(scene, settings, 4, four).estimate;
+  settings.targetErrorRelative = estimate / meanOf(four) / std::sqrt(5.0);
+  settings.targetError = 1e30;  // loses against the share
+  settings.raysPerPixel = 256;
+  const RenderResult uniform = renderOnDevice(scene, settings);
+  // Sums of 15,552 numbers of 24 bits in another order.
+  EXPECT_NEAR(uniform.stats.error.back().mean, meanOf(uniform.radiance), 1e-6 * meanOf(uniform.radiance));
+  expectJustEnough(scene, settings, uniform);
+  settings.adaptive = true;
+  settings.targetErrorRelative /= 2;
+  const ErrorPoint adaptive = renderOnDevice(scene, settings).stats.error.back();
+  EXPECT_LE(adaptive.estimate, settings.targetErrorRelative * adaptive.mean);
+  EXPECT_LT(adaptive.raysPerPixel, 80.0) << "what equal samples would need";
+}
+
+/// No share of nothing can be fallen short of; and it must not take 65,536 rays to see that.
+TEST(Settings, ABlackPictureMeetsAnyShareOfItsMean) {
+  Scene scene;
+  addFloor(scene, lambert(glm::vec3(1)), 0, true, 4);
+  scene.cameras.resize(1);
+  Settings settings;
+  settings.width = settings.height = 8;
+  settings.raysPerPixel = 1 << 16;
+  settings.targetErrorRelative = 0.01;
+  for (const bool adaptive : {false, true}) {
+    settings.adaptive = adaptive;
+    const RenderResult black = renderOnDevice(scene, settings);
+    EXPECT_EQ(black.stats.samples.most, 2U);
+    EXPECT_EQ(black.stats.error.back().mean, 0.0);
+    EXPECT_TRUE(meetsTarget(settings, black.stats.error.back()));
+  }
 }
 
 TEST(Strange, NoTriangles) {

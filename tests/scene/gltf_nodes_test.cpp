@@ -292,15 +292,23 @@ TEST(GltfLights, ImpossibleOnesWarn) {
       {{"type", "spot"}, {"spot", {{"innerConeAngle", 1.0}, {"outerConeAngle", 0.5}}}},
       {{"type", "area"}},
       {{"type", "point"}, {"intensity", -1}},
-      {{"type", "directional"}}};
-  for (int i = 0; i < 5; ++i) {
+      {{"type", "directional"}},
+      {{"type", "point"}, {"intensity", 1e39}}};
+  for (int i = 0; i < 6; ++i) {
     b.node({{"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}, {"scale", {1, 1, i == 4 ? 0 : 1}}});
   }
   const Scene scene = b.load();
   ASSERT_EQ(scene.lights.size(), 2U);
   EXPECT_TRUE(std::isinf(scene.lights[0].range));
   EXPECT_EQ(scene.lights[1].innerConeAngle, 0.5F);
-  EXPECT_EQ(b.notices.warnings.size(), 5U);
+  EXPECT_EQ(b.notices.warnings.size(), 6U);
+  const auto warned = [&](const std::string& text) {
+    return std::count(b.notices.warnings.begin(), b.notices.warnings.end(), text);
+  };
+  EXPECT_EQ(warned("light 3: its intensity is negative; the light is left out"), 1);
+  EXPECT_EQ(
+      warned("light 5: its intensity is beyond 3.4e38, the most that a float holds; the light is left out"),
+      1);
 }
 
 TEST(GltfLights, ReferencesAreChecked) {

@@ -1,0 +1,25 @@
+// Options of error against time, for the commands that render or plan a render.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/settings.h"
+
+namespace whittle::cli {
+
+/// --target-error, --time-limit and --adaptive.
+void addErrorOptions(CLI::App& command, Settings& settings);
+
+/// A target or a time limit without --rays-per-pixel means: as many as it takes. Throws InputError where
+/// nothing says how many, or the sampler must know.
+void settleRaysPerPixel(const CLI::App& command, Settings& settings);
+
+/// A line where --adaptive has nothing to give out.
+std::vector<std::string> uselessAdaptive(const Settings& settings);
+
+/// "0.002 W/(m² sr)" or "1 % of the mean": what was asked for.
+std::string targetText(const Settings& settings);
+
+}  // namespace whittle::cli

@@ -18,6 +18,7 @@ from lib import style, table
 from lib.context import SCENES
 from peers import cycles, gltf, pictures, povray, runs
 
+RENDERED = ["e12_pictures_*.png"]  # sheets of pictures; none of them is kept as data
 MANY_SAMPLES = 64  # until the noise of Cycles's choice between reflection and refraction is small
 SCENE_LABELS = {"frame": "the frame: hills, mirror balls", "cornell_box": "Cornell box, mirror and glass",
                 "height_field_256": "height field, 256 squares"}

@@ -152,7 +152,7 @@ def write(folder, name, rows):
 def analyse(folder):
     """Everything that the figures draw; the tables are written on the way."""
     curves, final = table.read(folder, "e9_curves"), table.read(folder, "e9_final")
-    data = dict(looks=looks(curves), final=final, precision=table.read(folder, "e9_precision"),
+    data = dict(looks=looks(curves), final=final, precision=table.read(folder, "e9_precision", mayBeEmpty=True),
                 scenes=list(dict.fromkeys(r["scene"] for r in curves)))
     for name, find in (("slopes", slopes), ("floors", floors), ("front", fronts), ("calibration", calibration)):
         data[name] = find(data)

@@ -167,6 +167,7 @@ def drawPairs(axis, found, which):
         axis.annotate(f"{b[1] / a[1]:.1f}×", (max(a[2], b[2]), i), xytext=(9, 0), textcoords="offset points", va="center")
     axis.set_xscale("log")
     axis.margins(x=0.2, y=0.08)
+    style.plainLog(axis.xaxis)
 
 
 def plotFrames(folder):
@@ -195,6 +196,7 @@ def plotQueries(folder):
     kinds = list(dict.fromkeys(r["rays"] for r in rows))
     names = list(dict.fromkeys(r["scene"] for r in rows))
     figure, axes = style.figure(1, 2, height=4.4, sharey=True, sharex=True)
+    threads = style.threadsText(table.readMachine(folder / "data", "e12_queries")["cpu"]["threads"])
     for axis, query in zip(axes, ("nearest", "any")):
         for i, name in enumerate(names):
             chosen = [r for r in rows if r["scene"] == name and r["query"] == query]
@@ -204,7 +206,7 @@ def plotQueries(folder):
         axis.axvline(1, color=style.BLACK, linewidth=0.9)
         axis.set_xscale("log")
         axis.set_title({"nearest": "Nearest hit", "any": "Any hit"}[query])
-        axis.set_xlabel("rays per second, × Embree's best mode")
+        axis.set_xlabel(f"rays per second, × Embree's best mode ({threads})")
         ticks = [0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6, 2, 2.5, 3]
         axis.xaxis.set_major_locator(style.matplotlib.ticker.FixedLocator(ticks))
         axis.xaxis.set_major_formatter("{x:g}")

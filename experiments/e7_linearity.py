@@ -106,7 +106,8 @@ def plot(folder):
         chosen = [r for r in rows if r["sweep"] == sweep]
         labels = plotSweep(above, below, chosen, sweep, looks)
         above.set_ylabel("time of a frame, s")
-        below.set(xlabel=f"{SWEEPS[sweep]}{' x' if sweep != 'depth' else ''} ({threads})", ylabel="time for each ray, ns")
+        symbol = "" if sweep == "depth" else " x"  # in the fits
+        below.set(xlabel=f"{SWEEPS[sweep]}{symbol} ({threads})", ylabel="time for each ray, ns")
         above.set_title(f"Over the {SWEEPS[sweep]}, {above.get_title(loc='left')}")
         labels.place()
         style.save(figure, folder, f"e7_{sweep}")

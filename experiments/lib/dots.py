@@ -41,6 +41,7 @@ def names(axis, first, rows, looks, size=8.5, spread=SPREAD):
     for i, (scene, x) in enumerate(zip(order, placed)):
         to = axis.transAxes.inverted().transform((x + shift, axis.get_window_extent().y0 + height))
         colour = style.look(looks[scene])["color"]
-        axis.annotate(scene, xy=(first[scene], rows - 1 + lift(scene, looks, spread)), xytext=(to[0], 1.03), textcoords="axes fraction", ha="center",
-                      fontsize=size, color=style.ink(colour), annotation_clip=False,
+        axis.annotate(scene, xy=(first[scene], rows - 1 + lift(scene, looks, spread)), xytext=(to[0], 1.03),
+                      textcoords="axes fraction", ha="center", fontsize=size, color=style.ink(colour),
+                      annotation_clip=False,
                       arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.6, "shrinkB": 4})

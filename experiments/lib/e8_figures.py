@@ -133,7 +133,8 @@ def rates(rows, folder):
     threads = table.readMachine(folder / "data", "e8_stages")["cpu"]["threads"]
     figure, axes = style.figure(1, 2 if moved else 1, height=4.4, sharey=True, squeeze=False)
     dotsByStage(axes[0][0], entries, "items", 1e6)
-    axes[0][0].set_xlabel(f"million items of the stage for each second\n(a dot for each scene; {style.threadsText(threads)})")
+    axes[0][0].set_xlabel("million items of the stage for each second\n"
+                          f"(a dot for each scene; {style.threadsText(threads)})")
     if moved:
         axis = axes[0][1]
         dotsByStage(axis, moved, "bytes", 1e9)

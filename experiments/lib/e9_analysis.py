@@ -84,7 +84,8 @@ def floors(data):
     biased = [v for v in dict.fromkeys(r["variant"] for r in data["looks"]) if v.startswith(("depth", "cut-off"))]
     for scene in data["scenes"]:
         for arithmetic in ("strict", "relaxed"):
-            values = [over(r, "rmse") for r in data["precision"] if (r["scene"], r["arithmetic"]) == (scene, arithmetic)]
+            values = [over(r, "rmse") for r in data["precision"]
+                      if (r["scene"], r["arithmetic"]) == (scene, arithmetic)]
             if values:  # measured last: an interrupted run may lack them
                 rows.append(dict(scene=scene, cause=f"{arithmetic} single precision", rmse=quartiles(values)[1],
                                  half=(max(values) - min(values)) / 2))

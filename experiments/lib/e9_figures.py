@@ -158,7 +158,8 @@ def drawFloors(folder, data):
     dots.draw(axis, causes, values, looks)
     axis.set(xscale="log", xlabel="RMSE over the mean")
     for scene, i in looks.items():
-        axis.plot([], [], markerfacecolor="white", label=style.sceneText(scene), **{**style.look(i), "linestyle": "none"})
+        axis.plot([], [], markerfacecolor="white", label=style.sceneText(scene),
+                  **{**style.look(i), "linestyle": "none"})
     legendBelow(axis, axis.get_legend_handles_labels())
     style.save(figure, folder, "e9_floors")
 
@@ -198,7 +199,8 @@ def drawFront(folder, data):
     figure, axis = style.figure(1, 1, 0.55 * len(data["scenes"]) + 1.6)
     low, high = (f(r["seconds"] for r in data["front"]) for f in (min, max))
     low, high = 0.9 * low, 1.5 * high
-    axis.set(xscale="log", xlim=(low, high), xlabel=f"seconds of rendering, {threadsOf(folder)} (below: RMSE over the mean)")
+    axis.set(xscale="log", xlim=(low, high),
+             xlabel=f"seconds of rendering, {threadsOf(folder)} (below: RMSE over the mean)")
     for row, scene in enumerate(reversed(data["scenes"])):
         rows = [r for r in data["front"] if r["scene"] == scene]
         for variant, start, end in segments(rows, rows[-1]["seconds"] * 1.3):
@@ -247,7 +249,8 @@ def drawCalibration(folder, data):
     chosen = {v: honest([r for r in data["looks"] if r["variant"] == v]) for v in names}
     ends = [f(f(p) for points in chosen.values() for p in points) for f in (min, max)]
     left.plot(ends, ends, color=style.GREY, linewidth=1)
-    for variant, points in sorted(chosen.items(), key=lambda of: "adaptive" not in of[0]):  # uniform ones, small, on top
+    # Uniform ones last, small, on top of the adaptive ones.
+    for variant, points in sorted(chosen.items(), key=lambda of: "adaptive" not in of[0]):
         adaptive = "adaptive" in variant
         look = {**style.look(SAMPLERS.index(variant)), "linestyle": "none"}
         left.plot(*zip(*points), **look, markersize=5 if adaptive else 2.2, label=SAMPLER_NAMES[variant],

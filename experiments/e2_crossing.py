@@ -96,7 +96,9 @@ class Ratios:
         return numpy.array([statistics.median(self.bySeed(n, draw)) for n in self.x])
 
     def interval(self, times=300):
-        """2.5 % and 97.5 % points of the crossing."""
+        """2.5 % and 97.5 % points of the crossing; None from one shape of hills, which says nothing of others."""
+        if min(len(seeds) for seeds in self.samples["array"].values()) < 2:
+            return None
         random = numpy.random.default_rng(1)
 
         def draw(values):
@@ -110,11 +112,15 @@ def autoThreshold(rows):
     return min((r["triangles"] for r in rows if r["search"] == "auto" and r["usedTree"]), default=None)
 
 
-def crossingText(at, low, high, x):
+def crossingText(at, interval, x):
     """In words; beyond the counts that were measured nothing is known."""
     if at <= x[0]:
         return f"the tree wins from {x[0]} on"
-    return f"the array wins up to {x[-1]}" if at >= x[-1] else f"crosses at {at:.0f} [{low:.0f}, {high:.0f}]"
+    if at >= x[-1]:
+        return f"the array wins up to {x[-1]}"
+    if interval is None:
+        return f"crosses at about {at:.2g}"
+    return "crosses at {:.0f} [{:.0f}, {:.0f}]".format(at, *interval)
 
 
 def markCrossing(axis, i, at, low, high):
@@ -133,11 +139,13 @@ def plotPanel(axis, rows, threads, automatic):
         y = numpy.exp(ratios.medians())
         spread = [numpy.exp([min(v), max(v)]) for v in (ratios.bySeed(n) for n in ratios.x)]
         style.draw(axis, i, ratios.x, y, *zip(*spread))
-        results[column] = crossing(ratios.x, ratios.medians()), *ratios.interval()
-        markCrossing(axis, i, *results[column])
-        text = f"{words}\n{crossingText(*results[column], ratios.x)}"
+        results[column], interval = crossing(ratios.x, ratios.medians()), ratios.interval()
+        if interval is not None:
+            markCrossing(axis, i, results[column], *interval)
+        text = f"{words}\n{crossingText(results[column], interval, ratios.x)}"
         labels.add(ratios.x[-1], y[-1], text, style.look(i)["color"])
-    axis.text(0.99, 0.07, "bars at the foot: where they cross, 95 %", transform=axis.transAxes, ha="right", va="center",
+    foot = "one shape of hills: no intervals" if interval is None else "bars at the foot: where they cross, 95 %"
+    axis.text(0.99, 0.07, foot, transform=axis.transAxes, ha="right", va="center",
               fontsize=8.5, color=style.GREY)
     axis.axhline(1, color=style.BLACK, linewidth=0.8)
     if automatic:
@@ -150,7 +158,7 @@ def plotPanel(axis, rows, threads, automatic):
     low, high = axis.get_ylim()
     axis.set_ylim(low / (high / low)**0.15, high)  # room for the bars
     axis.set_title(f"{threads} thread{'s' if threads > 1 else ''}: the tree wins the frame from "
-                   f"about {numpy.ceil(results['render'][0]):.0f} triangles on")
+                   f"about {numpy.ceil(results['render']):.0f} triangles on")
     return labels
 
 

@@ -67,7 +67,7 @@ def others(axis, rows, i, column):
         each = r[column] / r["triangles"]
         axis.plot(r["triangles"], each, linestyle="", marker="+", markersize=9, color=style.BLACK, zorder=4)
         if each > 1.1 * usual:
-            axis.annotate(f"{style.sceneText(r['scene'])} {each:.1f} B", (r["triangles"], each), (7, 0), va="center",
+            axis.annotate(f"{style.sceneText(r['scene'])} {each:.1f} B", (r["triangles"], each), (0, 6), ha="center",
                           textcoords="offset points", fontsize=8, color=style.ink(style.look(i)["color"]))
 
 

@@ -15,7 +15,7 @@ from lib.measure import curve, interleaved
 COLUMNS = ["sweep", "scene", "x", "width", "height", "raysPerPixel", "bounces", "repetition", "render", "rays",
            "launches"]
 SPONZA = "bench/crytek-sponza/crytek-sponza.glb"
-SWEEPS = {"pixels": "pixels", "samples": "rays for each pixel", "depth": "bounces (depth)"}
+SWEEPS = {"pixels": "pixels", "samples": "rays for each pixel", "depth": "bounces"}
 
 
 def scenes(context):
@@ -89,6 +89,7 @@ def plotSweep(above, below, rows, sweep, looks):
     scale = "linear" if sweep == "depth" else "log"  # rays grow with depth by steps or powers, not by decades
     above.set(xscale=scale, yscale="log")
     below.set(xscale=scale)
+    style.plainLog(above.yaxis)
     if sweep == "samples":
         style.plainLog(below.xaxis)
     below.set_ylim(bottom=0)

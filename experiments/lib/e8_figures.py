@@ -158,7 +158,8 @@ def dotsByStage(axis, rows, column, unit):
                   markerfacecolor="white", markeredgecolor=style.BLUE, markeredgewidth=1.4)
         for (value, scene), up, side in ((points[0], 0.2, "left"), (points[-1], -0.38, "right"))[:len(points)]:
             number = f"{value:.3g}" if value < 1000 else f"{value:.0f}"
-            axis.text(value, y + up, f"{style.sceneText(scene)} {number}", ha=side, fontsize=7.5)
+            axis.text(value, y + up, f"{style.sceneText(scene)} {number}", ha=side, fontsize=7.5,
+                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3, "alpha": 0.8})
     axis.set_xscale("log")
     axis.set_yticks(range(len(names)), names)
     axis.set_ylim(-0.6, len(names) - 0.4)

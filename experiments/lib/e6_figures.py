@@ -65,6 +65,7 @@ def sweep(frames, byStage, scenes, name, label, folder, file):
         axis.set_xscale("log", base=2)
         axis.set_xticks(sizes, [sizeText(n) for n in sizes])
         axis.minorticks_off()
+        axis.set_xlim(axes[0][0].get_xlim())  # the memory of the default is not drawn, its time is
     axes[-1][0].set_xlabel(label)
     style.placeAll(every, size=8.5)
     style.save(figure, folder, file)
@@ -107,6 +108,8 @@ def queueMemory(axis, frames, scenes):
         style.draw(axis, i, sizes, [v / 2**20 for v in values])
         labels.add(sizes[-1], values[-1] / 2**20, scene, style.look(i)["color"])
     axis.set_yscale("log")
+    if max(values) < 1000 * min(values):
+        style.plainLog(axis.yaxis)
     axis.set_ylabel("memory of queues, MiB")
     return labels
 

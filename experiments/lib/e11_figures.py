@@ -62,8 +62,9 @@ def drawAlone(axis, features, names):
     for y, name in enumerate(names):
         if name == "nothing":
             continue
-        middle, low, high = medianInterval(aloneRatios(features, name))
-        sure = low > 1.0 or high < 1.0
+        ratios = aloneRatios(features, name)
+        middle, low, high = medianInterval(ratios)
+        sure = len(ratios) >= 5 and (low > 1.0 or high < 1.0)  # of fewer the interval is no more than their range
         axis.plot([low, high], [y, y], color=style.BLUE, linewidth=3, alpha=0.35, solid_capstyle="butt")
         axis.plot([middle], [y], "o", color=style.BLUE, markerfacecolor=style.BLUE if sure else "white")
 

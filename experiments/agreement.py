@@ -44,8 +44,8 @@ def compare(kernel, reference):
     mean = b.mean()
     outlier = (abs(a - b).max(axis=-1) > 1e-3 * mean) & same
     rmse = lambda chosen: numpy.sqrt(((a - b)[chosen] ** 2).mean()) / mean
-    return (f"{rmse(same):.2e}\t{rmse(same & ~outlier):.2e}\t{outlier.sum()}\t{(~same).sum()}\t{elsewhere.sum()}\t{same.size}\t"
-            f"{a_rays['total']}\t{b_rays['total']}")
+    return (f"{rmse(same):.2e}\t{rmse(same & ~outlier):.2e}\t{outlier.sum()}\t{(~same).sum()}\t{elsewhere.sum()}\t"
+            f"{same.size}\t{a_rays['total']}\t{b_rays['total']}")
 
 
 def main():
@@ -56,7 +56,8 @@ def main():
     parser.add_argument("scenes", nargs="*", type=pathlib.Path)
     options = parser.parse_args()
     size = ["--width", str(options.width), "--height", str(options.height)]
-    print("scene\trmse/mean\twithout outliers\toutliers\tother triangle\tother depth\tpixels\trays\trays of the reference")
+    print("scene", "rmse/mean", "without outliers", "outliers", "other triangle", "other depth", "pixels", "rays",
+          "rays of the reference", sep="\t")
     for scene in options.scenes or sorted((ROOT / "scenes").glob("*.glb")):
         with tempfile.TemporaryDirectory() as folder:
             both = [render(options.whittle, c, scene, size, pathlib.Path(folder)) for c in ("render", "reference")]

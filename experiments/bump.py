@@ -59,6 +59,7 @@ LENGTHS = [2.0**k for k in range(-2, 7)]  # in 2^-24 of the coordinates: half an
 FAR = Place(1.0, 1000.0)
 # name: scene, bounces; more than one, so that one program draws all three
 PICTURES = {"shadow": (scenes.shadowScene, 2), "mirror": (scenes.mirrorScene, 2), "air": (scenes.airScene, 3)}
+RENDERED = ["bump_why.png"]  # a sheet of pictures; none of them is kept as data
 COLUMNS = ["variant", "size_m", "away_m", "measure", "value", "of"]
 TIMED = {"cornell_box": lambda c: SCENES / "cornell_box.glb", "height_field_256": lambda c: c.heightField(256)}
 

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """What a cut-off saves and what it costs: a scene with several cut-offs, in turn, as tab-separated values.
 
-One line for each cut-off: rays, seconds of rendering (the least of --runs interleaved ones; one more of each before them is
-not counted), the bias (mean difference over the picture from the first cut-off's, worst channel, W/(m² sr)), the bound that
-the statistics give for it, and the RMSE against the first. The first is the truth: 0, or, where nobody can wait for that,
-one so small that its own bound is small enough.
+One line for each cut-off: rays, seconds of rendering (the least of --runs interleaved ones; one more of each before
+them is not counted), the bias (mean difference over the picture from the first cut-off's, worst channel, W/(m² sr)),
+the bound that the statistics give for it, and the RMSE against the first. The first is the truth: 0, or, where nobody
+can wait for that, one so small that its own bound is small enough.
 
 usage: experiments/cutoff.py SCENE.glb [--whittle FILE] [--cutoffs 0,1e-4,...] [--runs N] [RENDER OPTIONS]
 needs: Debian's python3-numpy and python3-openimageio; /usr/bin/python3
@@ -29,7 +29,8 @@ def pixels(file):
 
 
 def render(args, options, cutoff, picture):
-    command = [args.whittle, "render", args.scene, "--cutoff", cutoff, "--quiet", "-o", picture, "--stats", "-", *options]
+    command = [args.whittle, "render", args.scene, "--cutoff", cutoff, "--quiet", "-o", picture, "--stats", "-",
+               *options]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
 

@@ -4,7 +4,8 @@
 Runs the tests that record rows (tests/stability/record.h) and writes the page stability.md: for each check of a case
 its construction, what was expected and why, what came out, the error and its limit. Cases that take minutes run whole.
 
-usage: experiments/e10_stability.py [--build FOLDER] [--out FILE] [--quick]   (default: build/release, stability.md here)
+usage: experiments/e10_stability.py [--build FOLDER] [--out FILE] [--quick]
+       (default: build/release, stability.md here)
 """
 import argparse
 import json
@@ -15,7 +16,8 @@ import subprocess
 import sys
 import tempfile
 
-from lib.context import Skipped
+from lib import table
+from lib.context import RunFailed, Skipped
 
 HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS = ["case", "construction", "expectation", "result", "error", "unit", "limit", "verdict"]
@@ -49,7 +51,7 @@ def run(program, pattern, whole):
         done = subprocess.run([program, f"--gtest_filter={pattern}", f"--gtest_output=json:{file}"],
                               env=environment, capture_output=True, text=True)
         if not file.exists():
-            raise SystemExit(f"{program}: ended with status {done.returncode} and no report")
+            raise RunFailed(f"{program}: ended with status {done.returncode} and no report")
         return rowsOf(json.loads(file.read_text()))
 
 
@@ -58,12 +60,21 @@ def order(row):
     return letters, int(number)
 
 
+def chosen(whole):
+    """All programs; without the long cases the one that is made for them alone."""
+    return TESTS if whole else {name: TESTS[name] for name in ("test_stability",)}
+
+
+def lacking(tests, whole):
+    """What is missing, in words, or None."""
+    missing = [name for name in chosen(whole) if not (tests / name).exists()]
+    return f"there is no {tests / missing[0]}: build the target {missing[0]}" if missing else None
+
+
 def collect(tests, whole):
-    """Rows of all programs; without the long cases, of those made for it alone."""
+    """Their rows."""
     rows = []
-    for name, pattern in TESTS.items():
-        if not whole and name != "test_stability":
-            continue
+    for name, pattern in chosen(whole).items():
         print(f"{name} ...", file=sys.stderr, flush=True)
         rows += run(tests / name, pattern, whole)
     return sorted(rows, key=order)  # stable: checks of a case stay in order
@@ -74,7 +85,8 @@ def page(rows):
     lines = [INTRODUCTION]
     failed = sum(r["verdict"] == "FAIL" for r in rows)
     known = sum(r["verdict"] == "known limit" for r in rows)
-    lines.append(f"{len(rows)} checks of {len({r['case'] for r in rows})} cases: {failed} failed, {known} known limits.\n")
+    lines.append(f"{len(rows)} checks of {len({r['case'] for r in rows})} cases: {failed} failed, "
+                 f"{known} known limits.\n")
     lines.append("| case | construction | expectation | result | error | limit | |")
     lines.append("|---|---|---|---|---|---|---|")
     for r in rows:
@@ -86,9 +98,8 @@ def page(rows):
 def measure(context):
     """For experiments/run: the rows as a table."""
     tests = pathlib.Path(context.whittle).parent / "tests"
-    for name in TESTS:
-        if not (tests / name).exists():
-            raise Skipped(f"there is no {tests / name}: build all targets")
+    if lack := lacking(tests, not context.quick):
+        raise Skipped(lack)
     rows = collect(tests, not context.quick)
     out = context.table("e10_stability", COLUMNS)
     for row in rows:
@@ -97,8 +108,7 @@ def measure(context):
 
 def plot(folder):
     """For experiments/run: the page from the table. Cells stay text."""
-    lines = (pathlib.Path(folder) / "data" / "e10_stability.tsv").read_text().splitlines()
-    rows = [dict(zip(COLUMNS, line.split("\t"))) for line in lines[1:]]
+    rows = [dict(zip(COLUMNS, row)) for row in table.lines(pathlib.Path(folder) / "data", "e10_stability")[1]]
     (pathlib.Path(folder) / "stability.md").write_text(page(rows))
 
 
@@ -106,9 +116,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, default=HERE.parent / "build" / "release")
     parser.add_argument("--out", type=pathlib.Path, default=HERE / "stability.md")
-    parser.add_argument("--quick", action="store_true", help="test_stability alone, long cases as short as in the suite")
+    parser.add_argument("--quick", action="store_true",
+                        help="test_stability alone, long cases as short as in the suite")
     options = parser.parse_args()
-    rows = collect(options.build / "tests", not options.quick)
+    tests, whole = options.build / "tests", not options.quick
+    if lack := lacking(tests, whole):
+        print(f"e10_stability.py: {lack}", file=sys.stderr)
+        sys.exit(2)
+    rows = collect(tests, whole)
     options.out.write_text(page(rows))
     sys.exit(any(r["verdict"] == "FAIL" for r in rows))
 

@@ -1,9 +1,9 @@
 """E11: What does leaving out what a scene does not need save?
 
-Each scene as it is and with --keep-all-features, in turn: the frame's time, the time to compile with nothing on disk, bytes
-of buffers, and the pixels in which the two pictures differ (there must be none). Then the plainest scene with features
-that it does without: each alone, beside the scene as it is; and one after the other, until all are in. A feature brings
-those that it cannot be without. Held constant: picture, search, all threads.
+Each scene as it is and with --keep-all-features, in turn: the frame's time, the time to compile with nothing on disk,
+bytes of buffers, and the pixels in which the two pictures differ (there must be none). Then the plainest scene with
+features that it does without: each alone, beside the scene as it is; and one after the other, until all are in. A
+feature brings those that it cannot be without. Held constant: picture, search, all threads.
 
 Writes e11_frames.tsv and e11_features.tsv (a row for each run), e11_compile.tsv, e11_pictures.tsv; figures e11_scenes,
 e11_features.
@@ -81,8 +81,8 @@ def leftOut(context):
 
 
 def plainest(context, features):
-    return functools.partial(context.render, PLAINEST, *context.pick(size(160, 90), size(640, 360)), "--rays-per-pixel", 8,
-                             *kept(features))
+    return functools.partial(context.render, PLAINEST, *context.pick(size(160, 90), size(640, 360)),
+                             "--rays-per-pixel", 8, *kept(features))
 
 
 def writeFeature(out, mode, feature, variant, run, stats):

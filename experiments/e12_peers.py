@@ -18,7 +18,13 @@ from lib import style, table
 from lib.context import SCENES
 from peers import cycles, gltf, pictures, povray, runs
 
+RENDERED = ["e12_pictures_*.png"]  # sheets of pictures; none of them is kept as data
 MANY_SAMPLES = 64  # until the noise of Cycles's choice between reflection and refraction is small
+QUERIES = ["scene", "triangles", "rays", "query", "count", "kernel", "mraysPerSecond", "embreeMode",
+           "embreeMraysPerSecond", "ratio"]
+FRAMES = ["scene", "triangles", "tool", "impulses", "repetition", "width", "height", "bounces", "threads", "render_s",
+          "process_s", "rays"]
+PICTURES = ["scene", "peer", "rmse", "flip", "median", "off", "rmse_others", "mean_ratio"]
 SCENE_LABELS = {"frame": "the frame: hills, mirror balls", "cornell_box": "Cornell box, mirror and glass",
                 "height_field_256": "height field, 256 squares"}
 RAY_LABELS = {"eye": "eye", "shadow": "shadow", "mirror1": "mirror, first", "mirror2": "mirror, second",
@@ -108,8 +114,7 @@ def canLook(context):
 
 
 def measureQueries(context, found, progress):
-    rows = context.table("e12_queries", ["scene", "triangles", "rays", "query", "count", "kernel", "mraysPerSecond", "embreeMode",
-                                         "embreeMraysPerSecond", "ratio"])
+    rows = context.table("e12_queries", QUERIES)
     options = context.pick(["--rays", 65536, "--runs", 3], ["--runs", 5])
     for name, file in found.items():
         report = context.bench(file, "--threads", context.threads, *options)
@@ -128,9 +133,7 @@ def measure(context):
     if len(absent) == 2:
         return
     job = {"width": context.pick(320, 1280), "height": context.pick(180, 720), "bounces": 8, "threads": context.threads}
-    frames = context.table("e12_frames", ["scene", "triangles", "tool", "impulses", "repetition", "width", "height", "bounces",
-                                          "threads", "render_s", "process_s", "rays"])
-    compared = context.table("e12_pictures", ["scene", "peer", "rmse", "flip", "median", "off", "rmse_others", "mean_ratio"])
+    frames, compared = context.table("e12_frames", FRAMES), context.table("e12_pictures", PICTURES)
     look = canLook(context)
     for name, file in found.items():
         subject = export(context, name, file, absent)
@@ -143,8 +146,8 @@ def measure(context):
 def pairs(rows):
     """(scene, peer, our times, their times) in the order measured; ours with the impulses that the peer follows."""
     times = repeat.grouped(rows, ["scene", "tool", "impulses"], lambda r: (r["render_s"], r["process_s"]))
-    return [(scene, tool, times[scene, "whittle", impulses], theirs) for (scene, tool, impulses), theirs in times.items()
-            if tool != "whittle"]
+    return [(scene, tool, times[scene, "whittle", impulses], theirs)
+            for (scene, tool, impulses), theirs in times.items() if tool != "whittle"]
 
 
 def legendBelow(figure, entries, share, **options):
@@ -156,16 +159,19 @@ def legendBelow(figure, entries, share, **options):
 def drawPairs(axis, found, which):
     """A line of the plot for each pair: both times, joined, and how many times as long the peer takes."""
     for i, (_, tool, ours, theirs) in enumerate(reversed(found)):
-        (a, b), number = [repeat.quartiles([t[which] for t in times]) for times in (ours, theirs)], 1 + (tool == "cycles")
+        a, b = (repeat.quartiles([t[which] for t in times]) for times in (ours, theirs))
+        number = 1 + (tool == "cycles")
         axis.plot([a[1], b[1]], [i, i], color="#bbbbbb", linewidth=1, zorder=1)
         for times, look, filled in ((a, 0, True), (b, number, False)):
             style_ = style.look(look)
             axis.hlines(i, times[0], times[2], color=style_["color"], linewidth=4, alpha=0.3)
             axis.plot(times[1], i, marker=style_["marker"], color=style_["color"], markersize=7, linestyle="",
                       markerfacecolor=style_["color"] if filled else "white")
-        axis.annotate(f"{b[1] / a[1]:.1f}×", (max(a[2], b[2]), i), xytext=(9, 0), textcoords="offset points", va="center")
+        axis.annotate(f"{b[1] / a[1]:.1f}×", (max(a[2], b[2]), i), xytext=(9, 0), textcoords="offset points",
+                      va="center")
     axis.set_xscale("log")
     axis.margins(x=0.2, y=0.08)
+    style.plainLog(axis.xaxis)
 
 
 def plotFrames(folder):
@@ -182,8 +188,8 @@ def plotFrames(folder):
     labels = [f"{SCENE_LABELS[s]}\nagainst {names[t]}" for s, t, _, _ in reversed(found)]
     axes[0].set_yticks(range(len(found)), labels, fontsize=8.5)
     for look, label in ((0, "Whittle"), (1, "POV-Ray"), (2, "Cycles")):
-        axes[0].plot([], [], linestyle="", marker=style.look(look)["marker"], color=style.look(look)["color"], label=label,
-                     markersize=7, markerfacecolor=style.look(look)["color"] if look == 0 else "white")
+        axes[0].plot([], [], **{**style.look(look), "linestyle": ""}, label=label, markersize=7,
+                     markerfacecolor=style.look(look)["color"] if look == 0 else "white")
     size = f"{row['width']}×{row['height']}, {row['bounces']} bounces, {row['threads']} threads"
     legendBelow(figure, axes[0].get_legend_handles_labels(), 0.15, ncols=3, title=size)
     style.save(figure, folder, "e12_frames")
@@ -194,6 +200,7 @@ def plotQueries(folder):
     kinds = list(dict.fromkeys(r["rays"] for r in rows))
     names = list(dict.fromkeys(r["scene"] for r in rows))
     figure, axes = style.figure(1, 2, height=4.4, sharey=True, sharex=True)
+    threads = style.threadsText(table.readMachine(folder / "data", "e12_queries")["cpu"]["threads"])
     for axis, query in zip(axes, ("nearest", "any")):
         for i, name in enumerate(names):
             chosen = [r for r in rows if r["scene"] == name and r["query"] == query]
@@ -203,7 +210,7 @@ def plotQueries(folder):
         axis.axvline(1, color=style.BLACK, linewidth=0.9)
         axis.set_xscale("log")
         axis.set_title({"nearest": "Nearest hit", "any": "Any hit"}[query])
-        axis.set_xlabel("rays per second, × Embree's best mode")
+        axis.set_xlabel(f"rays per second, × Embree's best mode ({threads})")
         ticks = [0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6, 2, 2.5, 3]
         axis.xaxis.set_major_locator(style.matplotlib.ticker.FixedLocator(ticks))
         axis.xaxis.set_major_formatter("{x:g}")

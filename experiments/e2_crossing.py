@@ -8,6 +8,9 @@ program chooses.
 Writes e2_crossing.tsv (a row for each run); figure e2_crossing. The crossing is where the monotone regression of the
 median log ratios passes 0; its interval comes from drawing repetitions and seeds anew (bootstrap, 95 %).
 """
+import math
+import statistics
+
 import numpy
 
 from lib import strip, style, table
@@ -87,13 +90,15 @@ class Ratios:
         """Log ratio of the medians of each seed."""
         both = (self.samples["array"][n], self.samples["tree"][n])
         seeds = draw([s for s in both[0] if s in both[1]])
-        return [numpy.log(numpy.median(draw(both[0][s])) / numpy.median(draw(both[1][s]))) for s in seeds]
+        return [math.log(statistics.median(draw(both[0][s])) / statistics.median(draw(both[1][s]))) for s in seeds]
 
     def medians(self, draw=lambda values: values):
-        return numpy.array([numpy.median(self.bySeed(n, draw)) for n in self.x])
+        return numpy.array([statistics.median(self.bySeed(n, draw)) for n in self.x])
 
     def interval(self, times=300):
-        """2.5 % and 97.5 % points of the crossing."""
+        """2.5 % and 97.5 % points of the crossing; None from one shape of hills, which says nothing of others."""
+        if min(len(seeds) for seeds in self.samples["array"].values()) < 2:
+            return None
         random = numpy.random.default_rng(1)
 
         def draw(values):
@@ -107,6 +112,25 @@ def autoThreshold(rows):
     return min((r["triangles"] for r in rows if r["search"] == "auto" and r["usedTree"]), default=None)
 
 
+def crossingText(at, interval, x):
+    """In words; beyond the counts that were measured nothing is known."""
+    if at <= x[0]:
+        return f"the tree wins from {x[0]} on"
+    if at >= x[-1]:
+        return f"the array wins up to {x[-1]}"
+    if interval is None:
+        return f"crosses at about {at:.2g}"
+    return "crosses at {:.0f} [{:.0f}, {:.0f}]".format(at, *interval)
+
+
+def markCrossing(axis, i, at, low, high):
+    """Its interval as a bar along the foot of the panel, one for each measure."""
+    look = style.look(i)
+    foot = {"transform": axis.get_xaxis_transform(), "color": look["color"], "clip_on": False}
+    axis.plot([low, high], [0.04 + 0.06 * i] * 2, linewidth=5, alpha=0.4, solid_capstyle="butt", **foot)
+    axis.plot([at], [0.04 + 0.06 * i], marker=look["marker"], markersize=5, **foot)
+
+
 def plotPanel(axis, rows, threads, automatic):
     """One number of threads; returns its labels, to be placed when the whole figure is laid out."""
     labels, results = style.EndLabels(axis), {}
@@ -115,19 +139,26 @@ def plotPanel(axis, rows, threads, automatic):
         y = numpy.exp(ratios.medians())
         spread = [numpy.exp([min(v), max(v)]) for v in (ratios.bySeed(n) for n in ratios.x)]
         style.draw(axis, i, ratios.x, y, *zip(*spread))
-        results[column] = crossing(ratios.x, ratios.medians()), *ratios.interval()
-        at, low, high = results[column]
-        axis.axvspan(low, high, color=style.look(i)["color"], alpha=0.15, linewidth=0)
-        text = f"{words}\ncrosses at {at:.0f} [{low:.0f}, {high:.0f}]"
+        results[column], interval = crossing(ratios.x, ratios.medians()), ratios.interval()
+        if interval is not None:
+            markCrossing(axis, i, results[column], *interval)
+        text = f"{words}\n{crossingText(results[column], interval, ratios.x)}"
         labels.add(ratios.x[-1], y[-1], text, style.look(i)["color"])
+    foot = "one shape of hills: no intervals" if interval is None else "bars at the foot: where they cross, 95 %"
+    axis.text(0.99, 0.07, foot, transform=axis.transAxes, ha="right", va="center",
+              fontsize=8.5, color=style.GREY)
     axis.axhline(1, color=style.BLACK, linewidth=0.8)
     if automatic:
         axis.axvline(automatic, color=style.GREY, linewidth=1, linestyle=":")
         axis.annotate(f"--search auto takes\nthe tree from {automatic}", (automatic, 0.97), (4, 0), va="top",
                       fontsize=8.5, xycoords=("data", "axes fraction"), textcoords="offset points", color=style.GREY)
     axis.set(xscale="log", yscale="log", ylabel="time with the array /\ntime with the tree")
+    style.plainLog(axis.xaxis)
+    style.plainLog(axis.yaxis)
+    low, high = axis.get_ylim()
+    axis.set_ylim(low / (high / low)**0.15, high)  # room for the bars
     axis.set_title(f"{threads} thread{'s' if threads > 1 else ''}: the tree wins the frame from "
-                   f"about {numpy.ceil(results['render'][0]):.0f} triangles on")
+                   f"about {numpy.ceil(results['render']):.0f} triangles on")
     return labels
 
 
@@ -137,6 +168,5 @@ def plot(folder):
     figure, axes = style.figure(rows=len(threads), height=3.4 * len(threads), sharex=True, squeeze=False)
     labels = [plotPanel(axis, rows, number, autoThreshold(rows)) for axis, number in zip(axes[:, 0], threads)]
     axes[-1, 0].set_xlabel("triangles")
-    for panel in labels:
-        panel.place()
+    style.placeAll(labels)
     style.save(figure, folder, "e2_crossing")

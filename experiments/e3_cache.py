@@ -56,12 +56,13 @@ def measure(context):
 
 
 def bent(x, y):
-    """The bend of cost against log2 of the bytes, and what to say of it."""
+    """The bend of cost against log2 of the bytes, or None; the curve that was fitted, and what to say of it."""
     found = fit.bend([math.log2(v) for v in x], y)
     if found is None or found.gain < 6:
         line = fit.linear([math.log2(v) for v in x], y)
-        return found, f"no bend: {fit.shown(*line[1], digits=1)} ns a doubling"
-    return found, (f"bends at {style.bytesText(2**found.at)} [{style.bytesText(2**found.low)}, "
+        reason = "too few points for a bend" if found is None else "no bend"
+        return None, line.curve, f"{reason}:\n{fit.shown(*line[1], digits=1)} ns a doubling"
+    return found, found.curve, (f"bends at {style.bytesText(2**found.at)} [{style.bytesText(2**found.low)}, "
                    f"{style.bytesText(2**found.high)}]:\n{fit.shown(*found.before, digits=1)}, then "
                    f"{fit.shown(*found.after, digits=1)} ns a doubling")
 
@@ -74,9 +75,9 @@ def markCaches(axis, machine):
 
 
 def statement(bends):
-    real = {words: b for words, b in bends.items() if b is not None and b.gain >= 6 and b.after[0] > b.before[0]}
+    real = {words: b for words, b in bends.items() if b is not None and b.after[0] > b.before[0]}
     if not real:
-        return "Cost of a ray against the scene's memory: no upward bend"
+        return "Cost of a ray against the scene's memory: no upward bend found"
     words, steepest = max(real.items(), key=lambda item: item[1].after[0])
     return (f"Steepest for {words.split(',')[0]}: {steepest.after[0]:.0f} ns a doubling beyond "
             f"{style.bytesText(2**steepest.at)}, {steepest.before[0]:.0f} before")
@@ -90,11 +91,9 @@ def plot(folder):
     for i, (source, rays, words) in enumerate(SHOWN):
         x, y, low, high = curve(rows, "bytes", "nanoseconds", source=source, rays=rays)
         style.draw(axis, i, x, y, low, high, linestyle="")
-        bends[words], text = bent(x, y)
-        if bends[words]:
-            along = [x[0] * (x[-1] / x[0])**(k / 200) for k in range(201)]
-            axis.plot(along, [bends[words].curve(math.log2(v)) for v in along],
-                      **{**style.look(i), "marker": ""})
+        bends[words], fitted, text = bent(x, y)
+        along = [x[0] * (x[-1] / x[0])**(k / 200) for k in range(201)]
+        axis.plot(along, [fitted(math.log2(v)) for v in along], **{**style.look(i), "marker": ""})
         labels.add(x[-1], y[-1], f"{words}\n{text}", style.look(i)["color"])
     axis.set_ylim(bottom=0)
     markCaches(axis, machine)

@@ -52,6 +52,25 @@ LINES = [("tree", "tree of the searches:\neight-wide nodes, leaves"), ("triangle
          ("wideNodes", "eight-wide nodes alone"), ("twoWideNodes", "two-wide nodes\n(GPUs use these)")]
 
 
+def growth(x, y):
+    """What the straight end says of the exponent, where it has points to spare."""
+    first = fit.straightEnd(x, y)
+    return "" if len(x) - first < 4 else f"; grows as n^({fit.shown(*fit.power(x[first:], y[first:])[1])})"
+
+
+def others(axis, rows, i, column):
+    """Scenes that are no height fields, over the line; those far off it with their names."""
+    usual = max((r["triangles"], r[column] / r["triangles"]) for r in rows if r["kind"] == "height field")[1]
+    for r in rows:
+        if r["kind"] == "height field" or r["triangles"] <= 100:
+            continue
+        each = r[column] / r["triangles"]
+        axis.plot(r["triangles"], each, linestyle="", marker="+", markersize=9, color=style.BLACK, zorder=4)
+        if each > 1.1 * usual:
+            axis.annotate(f"{style.sceneText(r['scene'])} {each:.1f} B", (r["triangles"], each), (0, 6), ha="center",
+                          textcoords="offset points", fontsize=8, color=style.ink(style.look(i)["color"]))
+
+
 def plot(folder):
     rows = table.read(folder / "data", "e4_memory")
     figure, (top, bottom) = style.figure(rows=2, height=7.6, sharex=True, height_ratios=[1.3, 1])
@@ -63,19 +82,16 @@ def plot(folder):
         law = fit.linear(x, y)
         style.draw(top, i, x, y)
         colour = style.look(i)["color"]
-        above.add(x[-1], y[-1], f"{words}\n{fit.shown(*law[1])} B each", colour)
+        above.add(x[-1], y[-1], f"{words}\n{law.values[1]:.1f} B each", colour)
         each = [b / n for n, b in points]
         style.draw(bottom, i, x, each)
         below.add(x[-1], each[-1], f"{each[-1]:.1f} B", colour)
         if column == "tree":
-            power = fit.power(*(v[fit.straightEnd(x, y):] for v in (x, y)))
-            title = f"Tree: {law.values[1]:.1f} B for each triangle; grows as n^({fit.shown(*power[1])})"
-    others = [r for r in rows if r["kind"] != "height field" and r["triangles"] > 100]
+            title = f"Tree: {law.values[1]:.1f} B for each triangle{growth(x, y)}"
     for i in (0, 1):
-        bottom.plot([r["triangles"] for r in others], [r[LINES[i][0]] / r["triangles"] for r in others], linestyle="",
-                    marker="+", markersize=8, color=style.look(i)["color"])
+        others(bottom, rows, i, LINES[i][0])
     top.set(xscale="log", yscale="log", ylabel="bytes", title=title)
     bottom.set(yscale="log", xlabel="triangles", ylabel="bytes for each triangle\n(+: other scenes)")
-    above.place()
-    below.place()
+    style.plainLog(bottom.yaxis)
+    style.placeAll([above, below])
     style.save(figure, folder, "e4_memory")

@@ -15,7 +15,7 @@ from lib.measure import curve, interleaved
 COLUMNS = ["sweep", "scene", "x", "width", "height", "raysPerPixel", "bounces", "repetition", "render", "rays",
            "launches"]
 SPONZA = "bench/crytek-sponza/crytek-sponza.glb"
-SWEEPS = {"pixels": "pixels", "samples": "rays for each pixel", "depth": "bounces (depth)"}
+SWEEPS = {"pixels": "pixels", "samples": "rays for each pixel", "depth": "bounces"}
 
 
 def scenes(context):
@@ -66,12 +66,12 @@ def perRay(rows):
 
 def words(name, x, y):
     """The scene with its power law, and the constant a of a + b x where that is known to better than a factor."""
-    if len(x) < 3:
+    if len(x) < 4:  # with fewer the interval says nothing
         return name
     power, line = fit.power(x, y), fit.linear(x, y, relative=True)
     text = f"{name}\n∝ x^({fit.shown(*power[1])})"
     constant, half = line[0]
-    return text + f"\n{1e3 * constant:.1f} ± {1e3 * half:.1f} ms at 0" if half < abs(constant) else text
+    return text + f"\n{1e3 * constant:.1f} ± {1e3 * half:.1f} ms at x = 0" if half < abs(constant) else text
 
 
 def plotSweep(above, below, rows, sweep, looks):
@@ -81,14 +81,17 @@ def plotSweep(above, below, rows, sweep, looks):
         i = looks[name]
         x, y, low, high = curve(rows, "x", "render", scene=name)
         style.draw(above, i, x, y, low, high)
-        text = name.replace("_", " ")
+        text = style.sceneText(name)
         labels.add(x[-1], y[-1], text if sweep == "depth" else words(text, x, y), style.look(i)["color"])
         cost = curve(perRay(rows), "x", "nanoseconds", scene=name)
         style.draw(below, i, *cost)
         factors.append(max(cost[1]) / min(cost[1]))
     scale = "linear" if sweep == "depth" else "log"  # rays grow with depth by steps or powers, not by decades
     above.set(xscale=scale, yscale="log")
-    below.set(xscale=scale, xlabel=SWEEPS[sweep])
+    below.set(xscale=scale)
+    style.plainLog(above.yaxis)
+    if sweep == "samples":
+        style.plainLog(below.xaxis)
     below.set_ylim(bottom=0)
     above.set_title(f"the cost of a ray varies by {min(factors):.2g} to {max(factors):.2g} times")
     return labels
@@ -96,6 +99,7 @@ def plotSweep(above, below, rows, sweep, looks):
 
 def plot(folder):
     rows = table.read(folder / "data", "e7_linearity")
+    threads = style.threadsText(table.readMachine(folder / "data", "e7_linearity")["cpu"]["threads"])
     names = list(dict.fromkeys(r["scene"] for r in rows))
     looks = {name: i for i, name in enumerate(names)}
     for sweep in SWEEPS:
@@ -103,7 +107,8 @@ def plot(folder):
         chosen = [r for r in rows if r["sweep"] == sweep]
         labels = plotSweep(above, below, chosen, sweep, looks)
         above.set_ylabel("time of a frame, s")
-        below.set_ylabel("time for each ray, ns")
+        symbol = "" if sweep == "depth" else " x"  # in the fits
+        below.set(xlabel=f"{SWEEPS[sweep]}{symbol} ({threads})", ylabel="time for each ray, ns")
         above.set_title(f"Over the {SWEEPS[sweep]}, {above.get_title(loc='left')}")
         labels.place()
         style.save(figure, folder, f"e7_{sweep}")

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Where a picture begins to go wrong as one thing grows or shrinks: the Cornell box scaled, moved, brightened, and with
-many lamps for one, each against the picture that it should still be. One line of tab-separated values for each step: RMSE
-over the mean radiance (a brighter picture is divided by its factor first), the same against double precision on the same
-triangles (where the scene is moved: the floats of its file move, too), samples that were not finite, triangles that were
-dropped, rays over the rays of the first picture, seconds of rendering, the first warning or the error.
+many lamps for one, each against the picture that it should still be. One line of tab-separated values for each step:
+RMSE over the mean radiance (a brighter picture is divided by its factor first), the same against double precision on
+the same triangles (where the scene is moved: the floats of its file move, too), samples that were not finite, triangles
+that were dropped, rays over the rays of the first picture, seconds of rendering, the first warning or the error.
 
 usage: experiments/limits.py [--whittle FILE] [--sweep NAME]...   (default: all of them)
 needs: Debian's python3-numpy and python3-openimageio; /usr/bin/python3
@@ -118,7 +118,8 @@ def line(step, base, found, factor, double):
     if picture is None:
         return f"{step}\t\t\t\t\t\t\t{said}"
     beside = "" if double is None else distance(picture, double)
-    return (f"{step}\t{distance(picture / factor, right)}\t{beside}\t{stats['nonFinite']}\t{stats['scene'].get('droppedTriangles', 0)}\t"
+    return (f"{step}\t{distance(picture / factor, right)}\t{beside}\t{stats['nonFinite']}\t"
+            f"{stats['scene'].get('droppedTriangles', 0)}\t"
             f"{stats['rays']['total'] / rightStats['rays']['total']:.4f}\t{stats['time']['render']:.3f}\t{said}")
 
 

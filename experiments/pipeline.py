@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Draws the pipeline: what runs on the host and on the device, which queue lies between two stages, what is left out when.
+"""Draws the pipeline: what runs on the host and on the device, which queue lies between two stages, and what is left
+out when.
 
 writes: figures/pipeline.svg and .png beside this script
 needs: Debian's python3-matplotlib; /usr/bin/python3
@@ -16,10 +17,12 @@ HEIGHT = 0.62
 
 # name, second line, x, y, width
 HOST_BOXES = [("load", "glTF → Scene", 0.2, 6.6, 1.7), ("scene use", "what is seen at all", 2.3, 6.6, 1.9),
-              ("features", "what is compiled, run", 4.6, 6.6, 2.0), ("build tree", "two- and eight-wide", 7.0, 7.0, 1.9),
-              ("compile", "three programs", 7.0, 6.1, 1.9), ("upload", "device scene, queues", 9.3, 6.6, 2.0)]
-STAGES = [("raygen", "eye rays", 0.2, 4.4), ("intersect", "nearest hits", 2.5, 4.4), ("shade", "surfels, candidates", 4.8, 4.4),
-          ("compact", "count, scan, scatter", 7.1, 4.4), ("occlude", "any hit to the light", 9.4, 4.4),
+              ("features", "what is compiled, run", 4.6, 6.6, 2.0),
+              ("build tree", "two- and eight-wide", 7.0, 7.0, 1.9), ("compile", "three programs", 7.0, 6.1, 1.9),
+              ("upload", "device scene, queues", 9.3, 6.6, 2.0)]
+STAGES = [("raygen", "eye rays", 0.2, 4.4), ("intersect", "nearest hits", 2.5, 4.4),
+          ("shade", "surfels, candidates", 4.8, 4.4), ("compact", "count, scan, scatter", 7.1, 4.4),
+          ("occlude", "any hit to the light", 9.4, 4.4),
           ("accumulate", "entries into samples", 9.4, 2.5), ("film", "samples into pixels", 9.4, 0.8)]
 STAGE_WIDTH = 1.9
 
@@ -61,7 +64,8 @@ def drawDevice(axis):
     arrow(axis, (10.35, 2.15), (10.35, 1.16), "radiance of samples", at=(-0.8, 0.0))
     arrow(axis, (8.05, 4.05), (3.45, 4.03), "next ray queue: impulses, stable order; cut before it would overflow",
           bend=-0.28, at=(0.0, -0.93), colour=style.BLUE)
-    axis.text(5.75, 2.87, "for each bounce, while rays are left", fontsize=7.8, color=style.BLUE, ha="center", va="center")
+    axis.text(5.75, 2.87, "for each bounce, while rays are left", fontsize=7.8, color=style.BLUE, ha="center",
+              va="center")
     axis.text(0.2, 1.15, "Left out where nothing needs it: shadow queue and occlude (no lights, no shadows);\n"
               "impulses, accumulate and every bounce after the first (no mirror, no glass);\n"
               "planes for a second impulse (no surface sends two); throughputs of eye rays.",

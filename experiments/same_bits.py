@@ -29,7 +29,8 @@ def pixelsThatDiffer(whittle, scene, folder):
     """A count, or the program's own line where it refuses the scene."""
     pictures = [folder / "special.exr", folder / "everything.exr"]
     for picture, options in zip(pictures, ([], ["--keep-all-features"])):
-        done = subprocess.run([whittle, "render", scene, "-o", picture, *PICTURE, *options], capture_output=True, text=True)
+        done = subprocess.run([whittle, "render", scene, "-o", picture, *PICTURE, *options], capture_output=True,
+                              text=True)
         if done.returncode != 0:
             return done.stderr.strip().split("\n")[-1]
     compared = subprocess.run([whittle, "compare", *pictures, "--json"], capture_output=True, text=True)

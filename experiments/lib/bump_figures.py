@@ -4,7 +4,7 @@ import math
 from lib import style, table
 
 SELF_HITS = ("acne", "acne, leaning normals", "acne, low facet", "mirror", "air")
-PANELS = [("light lost on a body, %", SELF_HITS), ("leaks, % of the room", ("leak",)),
+PANELS = [("light lost on a body, % (√ scale)", SELF_HITS), ("leaks, % of the room (√ scale)", ("leak",)),
           ("smallest gap kept, of the size", ("gap of a shadow",))]
 WIDEST, NARROWEST = 1.0, 2.0**-24  # of the gaps' scale
 
@@ -38,7 +38,7 @@ def drawShares(axis, values):
             continue
         axis.bar(x, max(math.sqrt(value), 0.5), color=style.RED, width=0.8)
         text = f"{value:.0f}" if value >= 9.5 else (f"{value:.1f}" if value >= 0.1 else "<0.1")
-        axis.text(x, max(math.sqrt(value), 0.5) + 0.4, text, ha="center", fontsize=6)
+        axis.text(x, max(math.sqrt(value), 0.5) + 0.4, text, ha="center", fontsize=7)
     axis.set_ylim(0, 13.5)
 
 
@@ -84,7 +84,7 @@ def drawPlaces(folder):
     for axis, (title, _) in zip(axes[0], PANELS):
         axis.set_title(title, fontsize=9.5)
     for axis in axes[-1]:
-        axis.set_xticks(range(len(there)), [label(p) for p in there], fontsize=6.5)
+        axis.set_xticks(range(len(there)), [label(p) if x % 2 == 0 else "" for x, p in enumerate(there)], fontsize=8)
         axis.set_xlabel("size at the origin, m | distance\nfrom the origin of 1 m, m", fontsize=8)
     style.save(figure, folder, "bump")
 
@@ -106,7 +106,7 @@ def drawLengths(folder):
         axis.set_title(title)
         axis.set_xlabel("length in $2^{-24}$ of the coordinates\n(line: the default's, $2^{-20}$)")
     axes[0].set_ylabel("rays that met what they left, %")
-    axes[2].legend(fontsize=8, frameon=False, loc="upper right")
+    axes[2].legend(fontsize=8, loc="upper right", framealpha=1, edgecolor="none", borderpad=0.2)
     style.save(figure, folder, "bump_lengths")
 
 

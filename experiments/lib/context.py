@@ -45,7 +45,7 @@ class Context:
         return Progress(name, weight)
 
     def json(self, command, *arguments, kernels=None):
-        """What a run of the program prints as JSON; kernels: a folder of compiled kernels, instead of the common one."""
+        """What a run of the program prints as JSON; kernels: a folder of compiled kernels, not the common one."""
         line = [str(a) for a in (self.whittle, command, *arguments)]
         environment = dict(self.environment, POCL_CACHE_DIR=str(kernels)) if kernels else self.environment
         done = subprocess.run(line, env=environment, capture_output=True, text=True)

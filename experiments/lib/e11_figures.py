@@ -1,4 +1,5 @@
-"""Figures of E11: each scene against everything, and what features cost the plainest scene alone and one after another."""
+"""Figures of E11: each scene against everything, and what features cost the plainest scene, alone and one after
+another."""
 import statistics
 
 from lib import style
@@ -21,10 +22,10 @@ def sceneRow(scene, frames, compiled):
 
 def bars(axis, values, label):
     axis.barh(range(len(values)), values, color=style.BLUE, height=0.7)
-    axis.axvline(1.0, color=style.BLACK, linewidth=0.8)
     for i, value in enumerate(values):
-        axis.text(value, i, f" {value:.2f}", va="center", fontsize=8)
-    axis.set(xlabel=label, ylim=(-0.6, len(values) - 0.4), xlim=(0, max(values) * 1.18))
+        axis.text(value, i, f"{value:.2f} ", va="center", ha="right", fontsize=8, color="white")
+    axis.axvline(1.0, color=style.BLACK, linewidth=0.8, zorder=0)
+    axis.set(xlabel=label, ylim=(-0.6, len(values) - 0.4), xlim=(0, max(1.0, *values) * 1.04))
     axis.grid(False)
 
 
@@ -50,7 +51,8 @@ def drawScenes(folder, frames, compiled, pictures):
 
 def aloneRatios(features, name):
     """Of each run with the feature to the one without beside it."""
-    seconds = {(r["variant"], r["run"]): r["render_s"] for r in features if r["mode"] == "alone" and r["feature"] == name}
+    seconds = {(r["variant"], r["run"]): r["render_s"] for r in features
+               if r["mode"] == "alone" and r["feature"] == name}
     return [s / seconds["plain", run] for (variant, run), s in seconds.items() if variant == "kept"]
 
 
@@ -60,8 +62,9 @@ def drawAlone(axis, features, names):
     for y, name in enumerate(names):
         if name == "nothing":
             continue
-        middle, low, high = medianInterval(aloneRatios(features, name))
-        sure = low > 1.0 or high < 1.0
+        ratios = aloneRatios(features, name)
+        middle, low, high = medianInterval(ratios)
+        sure = len(ratios) >= 5 and (low > 1.0 or high < 1.0)  # of fewer the interval is no more than their range
         axis.plot([low, high], [y, y], color=style.BLUE, linewidth=3, alpha=0.35, solid_capstyle="butt")
         axis.plot([middle], [y], "o", color=style.BLUE, markerfacecolor=style.BLUE if sure else "white")
 

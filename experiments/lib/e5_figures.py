@@ -20,8 +20,8 @@ def threadsAxis(axis, measured):
     axis.set_xticks(counts, [str(n) for n in counts])
     axis.minorticks_off()
     axis.axvline(processors, color=style.GREY, linewidth=0.8)
-    axis.text(processors, 1.0, f" {processors} processors", transform=axis.get_xaxis_transform(), fontsize=8,
-              color=style.GREY, va="top", ha="left")
+    axis.text(processors, 0.02, f" {processors} processors", transform=axis.get_xaxis_transform(), fontsize=8,
+              color=style.GREY, ha="left")
     axis.set_xlabel("threads")
 
 
@@ -80,11 +80,11 @@ def efficiency(axis, measured, looks):
 def byStage(axis, measured, looks):
     values = {}
     for scene in looks:
-        values[scene] = {"frame": on(measured, measured.frames, "render_s", scene=scene)}
+        values[scene] = {"whole frame": on(measured, measured.frames, "render_s", scene=scene)}
         for stage in STAGES:
             if any(r["stage"] == stage and r["scene"] == scene for r in measured.byStage):
                 values[scene][stage] = on(measured, measured.byStage, "seconds", scene=scene, stage=stage)
-    rows = ["frame", *STAGES]
+    rows = ["whole frame", *STAGES]
     dots.draw(axis, rows, values, looks)
     marks = {"1": 1.0, "memory": measured.ceiling("triad")[measured.processors],
              "arithmetic": measured.ceiling("fma")[measured.processors]}
@@ -93,7 +93,7 @@ def byStage(axis, measured, looks):
     axis.set_xlim(0)
     axis.set_xlabel(f"speed-up on {measured.processors} threads\n(dotted: 1; machine's memory {marks['memory']:.2f}, "
                     f"arithmetic {marks['arithmetic']:.2f})")
-    dots.names(axis, {s: v["frame"] for s, v in values.items()}, len(rows), looks)
+    dots.names(axis, {s: v["whole frame"] for s, v in values.items()}, len(rows), looks)
 
 
 def on(measured, rows, column, **chosen):
@@ -122,8 +122,7 @@ def models(measured, looks, folder):
     for axis in axes.flat[len(fits):]:
         axis.set_visible(False)
     every = [model(axis, measured, scene, looks[scene], *both) for axis, (scene, both) in zip(axes.flat, fits.items())]
-    for labels in every:  # last: they go where the lines are once the axes agree on their range
-        labels.place(size=8.5)
+    style.placeAll(every, size=8.5)
     style.save(figure, folder, "e5_model")
 
 
@@ -177,10 +176,10 @@ def launches(axis, measured):
              "compact": ("compact",), "accumulate, film": ("accumulate", "film")}
     for i, (name, of) in enumerate(kinds.items()):
         rows = [r for r in measured.launches if r["stage"] in of and r["all_processors_s"] > 0]
-        axis.plot([r["groups"] for r in rows], [r["one_thread_s"] / r["all_processors_s"] for r in rows],
+        axis.plot([r["groups"] for r in rows], [r["one_thread_s"] / r["all_processors_s"] for r in rows], label=name,
                   **{**style.look(i), "linestyle": "none", "markersize": 4, "alpha": 0.7})
-        axis.text(0.02, 0.98 - 0.06 * i, f"{'●■▲◆'[i]} {name}", transform=axis.transAxes, color=style.look(i)["color"],
-                  fontsize=8.5, va="top")
+    axis.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=2, frameon=False, fontsize=8.5, borderpad=0,
+                handletextpad=0.2)
     axis.set_xscale("log")
     axis.axvline(e5.GROUPS_AT_LEAST * measured.processors, color=style.GREY, linewidth=0.9)
     axis.text(e5.GROUPS_AT_LEAST * measured.processors, 0.02, f" {e5.GROUPS_AT_LEAST} for each thread", fontsize=8,

@@ -1,4 +1,5 @@
 """Figures of E6 (e6_sizes.py): times by work-group and wavefront, memory of queues, cost of a launch, lanes."""
+import math
 import statistics
 
 import numpy
@@ -56,7 +57,7 @@ def sweep(frames, byStage, scenes, name, label, folder, file):
         axis.text(usual, 1.0, f" default {sizeText(usual)}", transform=axis.get_xaxis_transform(), fontsize=8,
                   color=style.GREY, va="top")
         ms = 1e3 * median(frames, "render_s", sweep=name, scene=scene, size="default")
-        axis.set_title(f"{scene}: {ms:.0f} ms", fontsize=10)
+        axis.set_title(f"{scene}: {ms:.0f} ms a frame with the default", fontsize=10)
     if memory:
         every.append(queueMemory(axes[-1][0], frames, scenes))
     sizes = sorted({r["size"] for r in frames if r["sweep"] == name and r["size"] != "default"})
@@ -64,10 +65,19 @@ def sweep(frames, byStage, scenes, name, label, folder, file):
         axis.set_xscale("log", base=2)
         axis.set_xticks(sizes, [sizeText(n) for n in sizes])
         axis.minorticks_off()
+        axis.set_xlim(axes[0][0].get_xlim())  # the memory of the default is not drawn, its time is
     axes[-1][0].set_xlabel(label)
-    for labels in every:
-        labels.place(size=8.5)
+    style.placeAll(every, size=8.5)
     style.save(figure, folder, file)
+
+
+def roomyTicks(low, high, least=0.065):
+    """Of these, the more important first, as many as have `least` of a logarithmic axis between them."""
+    kept = []
+    for tick in (1, 2, 0.5, 5, 0.2, 10, 20, 50, 3, 1.5, 1.2, 0.8, 0.7, 0.9, 1.1):
+        if low <= tick <= high and all(abs(math.log(tick / k)) >= least * math.log(high / low) for k in kept):
+            kept.append(tick)
+    return sorted(kept)
 
 
 def timesOfDefault(axis, lines):
@@ -83,8 +93,7 @@ def timesOfDefault(axis, lines):
     axis.axhline(1, color=style.GREY, linestyle=":", linewidth=1)
     axis.set_yscale("log")
     axis.margins(y=0.15)
-    low, high = axis.get_ylim()
-    ticks = [t for t in (0.2, 0.5, 0.7, 0.8, 0.9, 1, 1.1, 1.2, 1.5, 2, 3, 5, 10, 20, 50) if low <= t <= high]
+    ticks = roomyTicks(*axis.get_ylim())
     axis.set_yticks(ticks, [f"{t:g}" for t in ticks])
     axis.minorticks_off()
     axis.set_ylabel("time, of the default's\n(★: best size)")
@@ -99,6 +108,8 @@ def queueMemory(axis, frames, scenes):
         style.draw(axis, i, sizes, [v / 2**20 for v in values])
         labels.add(sizes[-1], values[-1] / 2**20, scene, style.look(i)["color"])
     axis.set_yscale("log")
+    if max(values) < 1000 * min(values):
+        style.plainLog(axis.yaxis)
     axis.set_ylabel("memory of queues, MiB")
     return labels
 
@@ -126,9 +137,9 @@ def costOfLaunch(axis, frames, scenes):
         inside = max(both[1].values[1], 0)
         slope = fit.shown(1e6 * both[0].values[1], 1e6 * both[0].half[1], 0)
         labels.add(counts[-1], 1e3 * (wall[-1] - base), f"{scene}\n{slope} µs a launch\n"
-                   f"({1e6 * inside:.0f} within the kernel)", style.look(i)["color"])
+                   f"({1e6 * inside:.0f} µs within the kernel)", style.look(i)["color"])
     axis.set_xlabel("launches of a frame (640×360, 1 thread)")
-    axis.set_ylabel("frame, ms more than the fit without launches")
+    axis.set_ylabel("time of a frame less the fit's at 0 launches, ms")
     labels.place(size=8)
 
 
@@ -140,8 +151,8 @@ def lanes(axis, frames, scenes):
     values = {s: {row: median(frames, "render_s", sweep="lanes", scene=s, size=n) / usual[s]
                   for row, n in zip(rows, sizes)}
               for s in scenes}
-    dots.draw(axis, rows, values, looks)
+    dots.draw(axis, rows, values, looks, spread=0.07)
     axis.axvline(1, color=style.GREY, linestyle=":", linewidth=1)
     axis.set_xlim(0, 1.1 * max(v for of in values.values() for v in of.values()))
     axis.set_xlabel("frame, of the default's time,\nwith so many rays for each work item")
-    dots.names(axis, {s: v[rows[0]] for s, v in values.items()}, len(rows), looks)
+    dots.names(axis, {s: v[rows[0]] for s, v in values.items()}, len(rows), looks, spread=0.07)

@@ -1,6 +1,8 @@
 """Figures of E8 (e8_stages.py): shares of the stages by scene and by bounce, and their rates."""
 import statistics
 
+from matplotlib.patches import Patch
+
 from lib import ceilings, measure as repeat, stages, style, table
 
 WHOLE, OUTSIDE = 0, -1  # as e8_stages writes them
@@ -82,6 +84,7 @@ def profile(rows, folder):
     axis.set_yticks(range(len(scenes)), [label(rows, s) for s in scenes])
     axis.set_xlim(0, 122)
     axis.set_xticks(range(0, 101, 20))
+    axis.spines["bottom"].set_bounds(0, 100)
     axis.set_ylim(-0.6, len(scenes) - 0.4)
     axis.grid(axis="y", visible=False)
     threads = table.readMachine(folder / "data", "e8_stages")["cpu"]["threads"]
@@ -92,7 +95,7 @@ def profile(rows, folder):
 
 def label(rows, scene):
     triangles = next(r["triangles"] for r in rows if r["scene"] == scene)
-    return f"{scene} ({style.countText(triangles)} triangles)"
+    return f"{style.sceneText(scene)} ({style.countText(triangles)} triangles)"
 
 
 def bounces(rows, folder):
@@ -103,7 +106,8 @@ def bounces(rows, folder):
         return
     columns = min(2, len(scenes))
     lines = -(-len(scenes) // columns)
-    figure, axes = style.figure(lines, columns, height=2.9 * lines + 0.3, squeeze=False)
+    threads = style.threadsText(table.readMachine(folder / "data", "e8_stages")["cpu"]["threads"])
+    figure, axes = style.figure(lines, columns, height=2.9 * lines + 0.6, squeeze=False)
     for axis in axes.flat[len(scenes):]:
         axis.set_visible(False)
     for axis, scene in zip(axes.flat, scenes):
@@ -111,24 +115,26 @@ def bounces(rows, folder):
         widest = max(100 / total * sum(seconds(rows, scene, b).values()) for b in range(1, deepest[scene] + 1))
         for bounce in range(1, deepest[scene] + 1):
             spent = seconds(rows, scene, bounce)
-            centres = bar(axis, bounce, spent, 100 / total, 0.06 * widest)
-            if bounce == 1:
-                first = {s: c for s, c in centres.items() if spent.get(s, 0) > 0}
+            bar(axis, bounce, spent, 100 / total, 0.06 * widest)
         axis.set_yticks(range(1, deepest[scene] + 1))
         axis.set_ylim(deepest[scene] + 0.6, 0.4)
         axis.grid(axis="y", visible=False)
-        axis.set_ylabel("bounce")
-        axis.set_xlabel(f"share of the frame, % ({scene}, {1e3 * total:.0f} ms)")
-        nameParts(axis, first, 1 - 0.72, size=7.5)
+        axis.set(xlim=(0, 1.03 * widest), ylabel="bounce", title=f"{style.sceneText(scene)}: {1e3 * total:.0f} ms",
+                 xlabel=f"share of the frame, % ({threads})")
+    named = [s for s in stages.ORDER if any(r["stage"] == s and r["bounce"] >= 1 for r in rows)]
+    patches = [Patch(facecolor=LOOKS[s][0], hatch=LOOKS[s][1], edgecolor="white", linewidth=0.5) for s in named]
+    style.legendAbove(figure, patches, named, ncols=len(named))
     style.save(figure, folder, "e8_bounces")
 
 
 def rates(rows, folder):
     entries = [r for r in rows if r["bounce"] == WHOLE and r["seconds"] > 0 and r["items"] > 0]
     moved = [r for r in entries if r["bytes"] > 0]
+    threads = table.readMachine(folder / "data", "e8_stages")["cpu"]["threads"]
     figure, axes = style.figure(1, 2 if moved else 1, height=4.4, sharey=True, squeeze=False)
     dotsByStage(axes[0][0], entries, "items", 1e6)
-    axes[0][0].set_xlabel("million items of the stage for each second\n(a dot for each scene)")
+    axes[0][0].set_xlabel("million items of the stage for each second\n"
+                          f"(a dot for each scene; {style.threadsText(threads)})")
     if moved:
         axis = axes[0][1]
         dotsByStage(axis, moved, "bytes", 1e9)
@@ -150,8 +156,10 @@ def dotsByStage(axis, rows, column, unit):
         points = sorted((statistics.median(v), scene) for (scene,), v in by.items())
         axis.plot([p[0] for p in points], [y] * len(points), linestyle="none", marker="o", markersize=6,
                   markerfacecolor="white", markeredgecolor=style.BLUE, markeredgewidth=1.4)
-        axis.text(points[0][0], y + 0.2, f"{points[0][1]} {points[0][0]:.3g}", ha="left", fontsize=7.5)
-        axis.text(points[-1][0], y - 0.38, f"{points[-1][1]} {points[-1][0]:.3g}", ha="right", fontsize=7.5)
+        for (value, scene), up, side in ((points[0], 0.2, "left"), (points[-1], -0.38, "right"))[:len(points)]:
+            number = f"{value:.3g}" if value < 1000 else f"{value:.0f}"
+            axis.text(value, y + up, f"{style.sceneText(scene)} {number}", ha=side, fontsize=7.5,
+                      bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3, "alpha": 0.8})
     axis.set_xscale("log")
     axis.set_yticks(range(len(names)), names)
     axis.set_ylim(-0.6, len(names) - 0.4)

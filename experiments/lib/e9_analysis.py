@@ -84,7 +84,8 @@ def floors(data):
     biased = [v for v in dict.fromkeys(r["variant"] for r in data["looks"]) if v.startswith(("depth", "cut-off"))]
     for scene in data["scenes"]:
         for arithmetic in ("strict", "relaxed"):
-            values = [over(r, "rmse") for r in data["precision"] if (r["scene"], r["arithmetic"]) == (scene, arithmetic)]
+            values = [over(r, "rmse") for r in data["precision"]
+                      if (r["scene"], r["arithmetic"]) == (scene, arithmetic)]
             if values:  # measured last: an interrupted run may lack them
                 rows.append(dict(scene=scene, cause=f"{arithmetic} single precision", rmse=quartiles(values)[1],
                                  half=(max(values) - min(values)) / 2))
@@ -152,7 +153,7 @@ def write(folder, name, rows):
 def analyse(folder):
     """Everything that the figures draw; the tables are written on the way."""
     curves, final = table.read(folder, "e9_curves"), table.read(folder, "e9_final")
-    data = dict(looks=looks(curves), final=final, precision=table.read(folder, "e9_precision"),
+    data = dict(looks=looks(curves), final=final, precision=table.read(folder, "e9_precision", mayBeEmpty=True),
                 scenes=list(dict.fromkeys(r["scene"] for r in curves)))
     for name, find in (("slopes", slopes), ("floors", floors), ("front", fronts), ("calibration", calibration)):
         data[name] = find(data)

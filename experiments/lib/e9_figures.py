@@ -2,28 +2,30 @@
 first when, and whether the estimate is honest."""
 import math
 
-from lib import dots, style
+from lib import dots, style, table
 from lib.e9_analysis import SAMPLERS, curve, over
 from lib.measure import grouped, quartiles
 
 BIASED = ("depth", "cut-off")
+SAMPLER_NAMES = {v: v.replace("sobol", "Sobol") for v in SAMPLERS}
 MEASURES = {"rmse": "RMSE over the mean", "relMse": "relMSE", "flip": "FLIP"}
 THEORY = (-0.5, -0.75)  # independent samples; one in each stratum, at edges
 
 
-def shown(scene):
-    return scene.replace("_", " ")
+def threadsOf(folder):
+    return style.threadsText(table.readMachine(folder / "data", "e9_curves")["cpu"]["threads"])
 
 
-def panels(scenes, height, **options):
+def panels(scenes, height, threads, **options):
     """A grid of axes, one for each scene, two in a row; those left over are taken away."""
     rows = (len(scenes) + 1) // 2
     figure, axes = style.figure(rows, 2, height * rows, squeeze=False, **options)
     for axis in axes.flat[len(scenes):]:
         axis.remove()
     for scene, axis in zip(scenes, axes.flat):
-        axis.set(xscale="log", yscale="log", title=shown(scene), xlabel="seconds of rendering",
+        axis.set(xscale="log", yscale="log", title=style.sceneText(scene), xlabel=f"seconds of rendering ({threads})",
                  ylabel="RMSE over the mean")
+        style.plainLog(axis.xaxis, (1, 3))
     return figure, dict(zip(scenes, axes.flat))
 
 
@@ -43,16 +45,14 @@ def slope(data, scene, variant, measure="rmse"):
 
 
 def drawSamplers(folder, data):
-    figure, axes = panels(data["scenes"], 3.3)
-    for scene, axis in axes.items():
-        labels = style.EndLabels(axis)
+    figure, axes = panels(data["scenes"], 3.3, threadsOf(folder))
+    every = [style.EndLabels(axis) for axis in axes.values()]
+    for (scene, axis), labels in zip(axes.items(), every):
         for i, variant in enumerate(SAMPLERS):
             _, seconds, error = zip(*curve(data, scene, variant))
             style.draw(axis, i, seconds, error)
-            found = slope(data, scene, variant)
-            text = f" ∝ N^{found[0]:.2f}" if found else ""
-            labels.add(seconds[-1], error[-1], variant + text, style.look(i)["color"])
-        labels.place(size=7.5)
+            labels.add(seconds[-1], error[-1], SAMPLER_NAMES[variant], style.look(i)["color"])
+    style.placeAll(every, size=8)
     style.save(figure, folder, "e9_samplers")
 
 
@@ -73,22 +73,25 @@ def drawMeasures(folder, data):
     names = ["random", "stratified", "sobol"]
     for row, (value, text) in zip(axes, MEASURES.items()):
         for scene, axis in zip(scenes, row):
-            axis.set(xscale="log", yscale="log", title=shown(scene) if value == "rmse" else "",
+            axis.set(xscale="log", yscale="log", title=style.sceneText(scene) if value == "rmse" else "",
                      xlabel="seconds" if value == "flip" else "", ylabel=text if scene == scenes[0] else "")
             for variant in names:
                 i = SAMPLERS.index(variant)
                 seconds, middle, low, high = spread(data, scene, variant, value)
-                style.draw(axis, i, seconds, middle, low, high, label=variant)
+                style.draw(axis, i, seconds, middle, low, high, label=SAMPLER_NAMES[variant])
             style.plainLog(axis.xaxis, (1, 3))
+            if value != "relMse":  # which spans decades
+                style.plainLog(axis.yaxis, (1, 3))
             axis.tick_params(labelsize=8)
     axes[0][0].legend(frameon=False, fontsize=8, loc="lower left")
     style.save(figure, folder, "e9_measures")
 
 
 def drawSlopes(folder, data):
-    """A row for each sampler, a dot with its interval for each scene, lines where theory has them."""
-    figure, axes = style.figure(1, 2, 3.9, sharey=True, width_ratios=[1, 1])
-    for axis, value, factor in ((axes[0], "rmse", 1), (axes[1], "flip", 1)):
+    """A row for each sampler, a dot with its interval for each scene, lines where theory has them. Adaptive pictures
+    have no FLIP."""
+    figure, axes = style.figure(1, 2, 4.1, sharey=True)
+    for axis, value in zip(axes, ("rmse", "flip")):
         for i, scene in enumerate(data["scenes"]):
             for row, variant in enumerate(reversed(SAMPLERS)):
                 found = slope(data, scene, variant, value)
@@ -97,26 +100,30 @@ def drawSlopes(folder, data):
                 at = row + 0.3 - 0.6 * i / max(len(data["scenes"]) - 1, 1)
                 axis.plot([found[0] - min(found[1], 1), found[0] + min(found[1], 1)], [at, at], linewidth=1,
                           color=style.look(i)["color"])
-                axis.plot(found[0], at, markersize=5.5, markerfacecolor="white", label=shown(scene) if row == 0 else "",
+                axis.plot(found[0], at, markersize=5.5, markerfacecolor="white", label=style.sceneText(scene),
                           **{**style.look(i), "linestyle": "none"})
         for at in THEORY:
             axis.axvline(at, color=style.GREY, linewidth=1, linestyle=(0, (4, 3)), zorder=0)
             axis.annotate(f"N^{at:g}", (at, 1), xycoords=("data", "axes fraction"), xytext=(0, 3), fontsize=8,
                           textcoords="offset points", ha="center", color=style.GREY)
         axis.set(xlabel=f"exponent of {MEASURES[value]}", ylim=(-0.5, len(SAMPLERS) - 0.5))
-        axis.set_yticks(range(len(SAMPLERS)), SAMPLERS[::-1])
+        axis.set_yticks(range(len(SAMPLERS)), [SAMPLER_NAMES[v] for v in SAMPLERS[::-1]])
         axis.set_xlim(-1.5, -0.1)
-    # Adaptive pictures have no FLIP: there is room.
-    axes[1].legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=2, frameon=False, fontsize=8.5)
+    for row, variant in enumerate(reversed(SAMPLERS)):
+        if all(slope(data, scene, variant, "flip") is None for scene in data["scenes"]):
+            axes[1].text(-0.8, row, "not measured", ha="center", va="center", fontsize=8.5, color=style.GREY,
+                         bbox={"facecolor": "white", "edgecolor": "none"})
+    named = dict(zip(*reversed(axes[0].get_legend_handles_labels())))
+    style.legendAbove(figure, named.values(), named.keys(), ncols=len(named))
     style.save(figure, folder, "e9_slopes")
 
 
 def drawChoices(folder, data):
     names = dict.fromkeys(r["variant"] for r in data["looks"] if r["variant"].startswith((*BIASED, "one")))
     scenes = [s for s in data["scenes"] if curve(data, s, "one impulse")]
-    figure, axes = panels(scenes, 3.3)
-    for scene, axis in axes.items():
-        labels = style.EndLabels(axis)
+    figure, axes = panels(scenes, 3.3, threadsOf(folder))
+    every = [style.EndLabels(axis) for axis in axes.values()]
+    for (scene, axis), labels in zip(axes.items(), every):
         for i, variant in enumerate(["sobol", *names]):
             points = curve(data, scene, variant)
             if not points:
@@ -127,24 +134,32 @@ def drawChoices(folder, data):
         best = [r for r in data["front"] if r["scene"] == scene]
         axis.plot([r["seconds"] for r in best], [r["rmse"] for r in best], color=style.GREY, linewidth=6, alpha=0.2,
                   drawstyle="steps-post", zorder=0)
-        labels.place(size=7.5)
+    figure.supxlabel("grey band: the least error that any setting, adaptive ones too, has by that time", fontsize=9)
+    style.placeAll(every, size=8)
     style.save(figure, folder, "e9_choices")
 
 
+def isThere(row):
+    """Whether an error is one; of a floor, whether it is told from 0 (with one seed nothing is known of that)."""
+    fitted = row["cause"].startswith(BIASED)
+    return row["rmse"] > (row["half"] if fitted and math.isfinite(row["half"]) else 0)
+
+
 def drawFloors(folder, data):
-    """What each choice leaves wrong whatever the rays, beside what 64 rays leave and what arithmetic does. Floors
-    within their own interval of 0 are none."""
+    """What each choice leaves wrong whatever the rays, beside what 64 rays leave and what arithmetic does. Fitted
+    floors within their own interval of 0 are none."""
     causes = list(dict.fromkeys(r["cause"] for r in data["floors"]))
     causes.sort(key=lambda c: -max(r["rmse"] for r in data["floors"] if r["cause"] == c))
-    figure, axis = style.figure(1, 1, 0.42 * len(causes) + 1.3)
+    figure, axis = style.figure(1, 1, 0.55 * len(causes) + 1.3)
     looks = {scene: i for i, scene in enumerate(data["scenes"])}
     values = {scene: {r["cause"]: r["rmse"] for r in data["floors"]
-                      if r["scene"] == scene and (r["rmse"] > r["half"] or math.isinf(r["half"]) and r["rmse"] > 0)}
+                      if r["scene"] == scene and isThere(r)}
               for scene in data["scenes"]}
     dots.draw(axis, causes, values, looks)
     axis.set(xscale="log", xlabel="RMSE over the mean")
     for scene, i in looks.items():
-        axis.plot([], [], markerfacecolor="white", label=shown(scene), **{**style.look(i), "linestyle": "none"})
+        axis.plot([], [], markerfacecolor="white", label=style.sceneText(scene),
+                  **{**style.look(i), "linestyle": "none"})
     legendBelow(axis, axis.get_legend_handles_labels())
     style.save(figure, folder, "e9_floors")
 
@@ -160,27 +175,40 @@ def segments(rows, end):
     return found
 
 
-def group(variant):
-    """Biased settings share a colour; their names stand in the figure."""
-    return next((b for b in BIASED if variant.startswith(b)), variant)
+# What a segment looks like: colour, hatch, colour of its name. Biased settings share a look; their names stand in them.
+SEGMENTS = {"random": (style.BLUE, "", "white"), "stratified": (style.RED, "//", "black"),
+            "sobol": (style.GREEN, "\\\\", "black"), "random, adaptive": (style.PURPLE, "xx", "black"),
+            "sobol, adaptive": (style.BLACK, "", "white"), "one impulse": (style.ORANGE, "..", "black"),
+            "relaxed": (style.SKY, "--", "black")}
+OTHERS = ("#cccccc", "", "black")
+
+
+def drawSegment(axis, row, variant, start, end, decade):
+    """One setting's time as the first; named where there is room. decade: its width in points."""
+    colour, hatch, ink = SEGMENTS.get(variant, OTHERS)
+    axis.barh(row, end - start, left=start, height=0.6, color=colour, hatch=hatch, edgecolor="white", linewidth=1,
+              label=SAMPLER_NAMES.get(variant, variant) if variant in SEGMENTS else "biased: depth, cut-off")
+    name = SAMPLER_NAMES.get(variant, variant)
+    if decade * math.log10(end / start) > 4.1 * len(name) + 4:
+        axis.text(math.sqrt(start * end), row, name, ha="center", va="center", fontsize=7.5, color=ink,
+                  bbox={"facecolor": colour, "edgecolor": "none", "pad": 0.6} if hatch else None)
 
 
 def drawFront(folder, data):
     """Which setting has the least error by which time: a bar for each scene."""
-    groups = ["random", "stratified", "sobol", "random, adaptive", "sobol, adaptive", "one impulse", "relaxed"]
     figure, axis = style.figure(1, 1, 0.55 * len(data["scenes"]) + 1.6)
+    low, high = (f(r["seconds"] for r in data["front"]) for f in (min, max))
+    low, high = 0.9 * low, 1.5 * high
+    axis.set(xscale="log", xlim=(low, high),
+             xlabel=f"seconds of rendering, {threadsOf(folder)} (below: RMSE over the mean)")
     for row, scene in enumerate(reversed(data["scenes"])):
         rows = [r for r in data["front"] if r["scene"] == scene]
         for variant, start, end in segments(rows, rows[-1]["seconds"] * 1.3):
-            known = variant in groups
-            colour = style.look(groups.index(variant))["color"] if known else "#bbbbbb"
-            axis.barh(row, end - start, left=start, height=0.6, color=colour, edgecolor="white",
-                      label=variant if known else "biased: depth, cut-off")
+            drawSegment(axis, row, variant, start, end, 560 / math.log10(high / low))
         for r in rows[:: max(len(rows) // 4, 1)]:
-            axis.annotate(f"{r['rmse']:.0e}", (r["seconds"], row - 0.3), (0, -1), textcoords="offset points",
-                          fontsize=6.5, va="top", color=style.GREY)
-    axis.set(xscale="log", xlabel="seconds of rendering (below: RMSE over the mean)")
-    axis.set_yticks(range(len(data["scenes"])), [shown(s) for s in reversed(data["scenes"])])
+            axis.annotate(f"{r['rmse']:.1g}", (r["seconds"], row - 0.3), (0, -1), textcoords="offset points",
+                          fontsize=7, va="top", color=style.GREY)
+    axis.set_yticks(range(len(data["scenes"])), [style.sceneText(s) for s in reversed(data["scenes"])])
     axis.set_ylim(-0.75, len(data["scenes"]) - 0.6)
     style.plainLog(axis.xaxis)
     legendBelow(axis, axis.get_legend_handles_labels())
@@ -206,8 +234,8 @@ def drawRatios(axis, data, names):
         for scene, r in found.items():
             axis.plot(r["median"], row - 0.3, markersize=4, markerfacecolor="white",
                       **{**style.look(data["scenes"].index(scene)), "linestyle": "none", "color": style.GREY},
-                      label=shown(scene) if i == 0 else "")
-    axis.set_yticks(range(len(names)), names[::-1])
+                      label=style.sceneText(scene) if i == 0 else "")
+    axis.set_yticks(range(len(names)), [SAMPLER_NAMES[v] for v in names[::-1]])
     axis.set_ylim(-0.6, len(names) - 0.4)
     axis.axvline(1.0, color=style.GREY, linewidth=1)
 
@@ -217,13 +245,17 @@ def drawCalibration(folder, data):
     figure, (left, right) = style.figure(1, 2, 4.6, width_ratios=[1, 1])
     left.set(xscale="log", yscale="log", xlabel="estimated RMSE over the mean", ylabel="true RMSE over the mean",
              title="Each look of each run")
-    right.set(xscale="log", xlabel="true RMSE over the estimated one", title="Half, nine tenths; scenes")
+    right.set(xscale="log", xlabel="true RMSE over the estimated one", title="Median, half, 9/10; below: scenes")
     chosen = {v: honest([r for r in data["looks"] if r["variant"] == v]) for v in names}
     ends = [f(f(p) for points in chosen.values() for p in points) for f in (min, max)]
     left.plot(ends, ends, color=style.GREY, linewidth=1)
-    for variant, points in chosen.items():
-        left.plot(*zip(*points), **{**style.look(SAMPLERS.index(variant)), "linestyle": "none"}, markersize=4,
-                  markerfacecolor="none")
+    # Uniform ones last, small, on top of the adaptive ones.
+    for variant, points in sorted(chosen.items(), key=lambda of: "adaptive" not in of[0]):
+        adaptive = "adaptive" in variant
+        look = {**style.look(SAMPLERS.index(variant)), "linestyle": "none"}
+        left.plot(*zip(*points), **look, markersize=5 if adaptive else 2.2, label=SAMPLER_NAMES[variant],
+                  **({"markerfacecolor": "none", "alpha": 0.6} if adaptive else {}))
+    left.legend(loc="upper left", frameon=False, fontsize=8.5, handletextpad=0.2)
     drawRatios(right, data, names)
     style.plainLog(right.xaxis)
     legendBelow(right, right.get_legend_handles_labels(), 3)

@@ -80,8 +80,9 @@ def power(x, y):
 
 
 def floor(n, squared, power=1.0):
-    """b and s of the mean squared error b² + s² n^-power: what no n removes, and what n = 1 adds to it. Relative errors,
-    as each square scatters in proportion to its own size; a floor below what the scatter lets see comes out as 0."""
+    """b and s of the mean squared error b² + s² n^-power: what no n removes, and what n = 1 adds to it. Relative
+    errors, as each square scatters in proportion to its own size; a floor below what the scatter lets see comes out
+    as 0."""
     line = linear(numpy.asarray(n, float) ** -power, squared, relative=True)
     return math.sqrt(max(line.values[0], 0)), math.sqrt(max(line.values[1], 0))
 

@@ -1,9 +1,12 @@
 """One look for all figures: Okabe and Ito's colours, each with a line style and a marker of its own (so that they can
 be told apart in grey), labels at the ends of the lines instead of a legend, the same bytes from the same data.
 """
+import sys
+
 import matplotlib
 
 matplotlib.use("Agg")
+import matplotlib.colors  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 import matplotlib.pyplot as pyplot  # noqa: E402  after the backend is chosen
 
@@ -32,6 +35,11 @@ def look(i):
     return {"color": colour, "linestyle": line, "marker": marker}
 
 
+def ink(colour):
+    """A darker one of the same hue, for text: letters are thinner than lines, and orange ones hard to read on white."""
+    return matplotlib.colors.to_hex([0.72 * c for c in matplotlib.colors.to_rgb(colour)])
+
+
 def draw(axis, i, x, y, low=None, high=None, **options):
     """Line number i with its spread (quartiles) as bars."""
     style = {**look(i), **options}
@@ -58,8 +66,10 @@ class EndLabels:
 
     def place(self, size=9, gap=1.3):
         """Right of the axes, which the layout makes narrower for them; gap: lines of text from one to the next."""
+        placeAll([self], size, gap)
+
+    def draw(self, size, gap):
         figure_ = self.axis.figure
-        figure_.canvas.draw()  # the layout, without texts, decides the heights
         to = self.axis.transAxes.inverted().transform
         ends = [(self.axis.transData.transform((x, y))[1], x, y, text, colour) for x, y, text, colour in self.labels]
         ends.sort(key=lambda e: e[0])
@@ -68,9 +78,18 @@ class EndLabels:
         heights = spread([e[0] for e in ends], [step * (e[3].count("\n") + 1) for e in ends], box.y0, box.y1)
         for (_, x, y, text, colour), height in zip(ends, heights):
             self.axis.annotate(text, xy=(x, y), xytext=(1.03, to((0, height))[1]), textcoords="axes fraction",
-                               fontsize=size, color=colour, va="center", annotation_clip=False,
+                               fontsize=size, color=ink(colour), va="center", annotation_clip=False,
                                arrowprops={"arrowstyle": "-", "relpos": (0, 0.5), "color": colour, "linewidth": 0.6,
                                            "alpha": 0.6, "shrinkB": 3})
+
+
+def placeAll(labels, size=9, gap=1.3):
+    """The labels of all axes of a figure; last, as they go where the lines are in the final layout, which takes long to
+    find. It is found without texts: they change widths and no heights."""
+    if labels:
+        labels[0].axis.figure.draw_without_rendering()
+    for each in labels:
+        each.draw(size, gap)
 
 
 def spread(centres, heights, low=float("-inf"), high=float("inf")):
@@ -102,9 +121,29 @@ def save(figure_, folder, name):
     """FOLDER/figures/NAME.svg and .png."""
     figures = folder / "figures"
     figures.mkdir(parents=True, exist_ok=True)
+    figure_.draw_without_rendering()
+    figure_.set_layout_engine("none")  # the layout is found: once is enough, it takes longer than drawing
     figure_.savefig(figures / f"{name}.svg", metadata={"Date": None})
     figure_.savefig(figures / f"{name}.png")
     pyplot.close(figure_)
+    print(f"drawn: figures/{name}.svg, .png", file=sys.stderr, flush=True)
+
+
+def legendAbove(figure_, handles, labels, inches=0.3, **options):
+    """One legend for all panels, in a strip of that height above them."""
+    share = inches / figure_.get_figheight()
+    figure_.get_layout_engine().set(rect=(0, 0, 1, 1 - share))
+    figure_.legend(handles, labels, loc="upper center", frameon=False, fontsize=8.5, **options)
+
+
+def sceneText(name):
+    """cornell_box -> "Cornell box"."""
+    words = name.replace("_", " ").replace("-", " ")
+    return {"cornell box": "Cornell box", "sponza": "Sponza", "crytek sponza": "Sponza"}.get(words, words)
+
+
+def threadsText(threads):
+    return "1 thread" if threads == 1 else f"{threads} threads"
 
 
 def bytesText(value):

@@ -2,6 +2,10 @@
 import json
 
 
+class NoData(Exception):
+    """A table is missing or was never filled; the text says which."""
+
+
 class Table:
     """FOLDER/NAME.tsv with these columns; the machine's record goes beside it."""
 
@@ -38,12 +42,26 @@ def parsed(cell):
     return cell
 
 
-def read(folder, name):
+def content(file):
+    if not file.is_file():
+        raise NoData(f"there is no {file}")
+    return file.read_text()
+
+
+def lines(folder, name, mayBeEmpty=False):
+    """Columns, and the rows as lists of text, of FOLDER/NAME.tsv."""
+    file = folder / f"{name}.tsv"
+    first, *rows = [line.split("\t") for line in content(file).splitlines()] or [[]]
+    if not rows and not mayBeEmpty:
+        raise NoData(f"{file} holds no rows")
+    return first, rows
+
+
+def read(folder, name, mayBeEmpty=False):
     """The rows of FOLDER/NAME.tsv as dictionaries, numbers as numbers."""
-    lines = (folder / f"{name}.tsv").read_text().splitlines()
-    columns = lines[0].split("\t")
-    return [dict(zip(columns, map(parsed, line.split("\t")))) for line in lines[1:]]
+    columns, rows = lines(folder, name, mayBeEmpty)
+    return [dict(zip(columns, map(parsed, row))) for row in rows]
 
 
 def readMachine(folder, name):
-    return json.loads((folder / f"{name}.machine.json").read_text())
+    return json.loads(content(folder / f"{name}.machine.json"))

@@ -1,1 +1,2 @@
-"""Our scenes for other renderers: the reader of GLB files, a writer for each renderer, and how each is run and timed."""
+"""Our scenes for other renderers: the reader of GLB files, a writer for each renderer, and how each is run and
+timed."""

@@ -21,7 +21,8 @@ MIRROR_ROUGHNESS = 0.2  # below it Whittle takes a surface for smooth
 
 
 class Nodes:
-    """A material's node tree, one call for each node: names of inputs and what goes there, a value or another node's output."""
+    """A material's node tree, one call for each node: names of inputs and what goes there, a value or another node's
+    output."""
 
     def __init__(self, owner):
         owner.use_nodes = True
@@ -61,7 +62,8 @@ def mirror(nodes, colour):
 
 
 def glass(nodes, colour, ior):
-    """Reflects and refracts; shadow rays go straight through, dimmed by 1 - F on each surface as if they came from outside."""
+    """Reflects and refracts; shadow rays go straight through, dimmed by 1 - F on each surface as if they came from
+    outside."""
     surface = nodes.add("ShaderNodeBsdfGlass", {"Color": rgba(colour), "IOR": ior}, distribution="SHARP")
     back = nodes.add("ShaderNodeNewGeometry", output="Backfacing")
     # Fresnel inverts the index behind a surface: handed the inverse there, it uses the index itself.

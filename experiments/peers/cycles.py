@@ -25,12 +25,14 @@ def write(scene, file):
             arrays[f"normals{i}"] = mesh.normals
     numpy.savez(file.with_suffix(".npz"), **arrays)
     text = SCRIPT.read_text(encoding="utf-8")
-    file.write_text(text.replace("SCENE = {}", f"SCENE = json.loads({json.dumps(describe(scene))!r})"), encoding="utf-8")
+    described = f"SCENE = json.loads({json.dumps(describe(scene))!r})"
+    file.write_text(text.replace("SCENE = {}", described), encoding="utf-8")
 
 
 def command(file, out, width, height, threads, bounces, samples):
-    return ["blender", "--background", "--factory-startup", "--debug-cycles", "--verbose", "3", "--python-exit-code", "1",
-            "--python", str(file), "--", str(out), *map(str, (width, height, threads, bounces, samples))]
+    return ["blender", "--background", "--factory-startup", "--debug-cycles", "--verbose", "3",
+            "--python-exit-code", "1", "--python", str(file), "--", str(out),
+            *map(str, (width, height, threads, bounces, samples))]
 
 
 def describe(scene):

@@ -229,7 +229,8 @@ class Reader:
 
 
 def keepFirstLight(file, out):
-    """Writes a copy of a GLB whose other light nodes shine no more; everything else, the binary chunk included, as it was."""
+    """Writes a copy of a GLB whose other light nodes shine no more; everything else, the binary chunk included, as it
+    was."""
     with open(file, "rb") as stream:
         data = stream.read()
     length = struct.unpack_from("<I", data, 12)[0]
@@ -241,4 +242,5 @@ def keepFirstLight(file, out):
     text += b" " * (-len(text) % 4)  # chunks are multiples of four bytes
     rest = data[20 + length:]
     with open(out, "wb") as stream:
-        stream.write(struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest)
+        stream.write(struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A))
+        stream.write(text + rest)

@@ -20,13 +20,15 @@ def difference(ours, theirs):
 
 
 def compare(whittle, ours, theirs):
-    """FLIP and RMSE by `whittle compare`, the latter over the mean; the middle pixel's difference; the share of pixels off."""
-    text = subprocess.run([whittle, "compare", theirs, ours, "--json"], capture_output=True, text=True, check=True).stdout
-    metrics = json.loads(text)
+    """FLIP and RMSE by `whittle compare`, the latter over the mean; the middle pixel's difference; the share of pixels
+    off."""
+    done = subprocess.run([whittle, "compare", theirs, ours, "--json"], capture_output=True, text=True, check=True)
+    metrics = json.loads(done.stdout)
     a, b = pixels(ours), pixels(theirs)
     d = difference(a, b)
     return {"rmse": metrics["rmse"] / a.mean(), "flip": metrics["flip"], "median": float(numpy.median(d)),
-            "off": float((d > OFF).mean()), "rmse_others": float(numpy.sqrt(((a - b)[d <= OFF] ** 2).mean()) / a.mean()),
+            "off": float((d > OFF).mean()),
+            "rmse_others": float(numpy.sqrt(((a - b)[d <= OFF] ** 2).mean()) / a.mean()),
             "mean_ratio": float(b.mean() / a.mean())}
 
 

@@ -85,7 +85,8 @@ def materialText(m):
         return (f"texture {{ pigment {{ rgbf {vector([*m.baseColor, m.transmission])} }} "
                 f"finish {{ reflection {{ 0, 1 fresnel on }} conserve_energy }} }} interior {{ ior {m.ior:.9g} }}")
     if m.metallic > 0 and m.roughness < MIRROR_ROUGHNESS:
-        return (f"texture {{ pigment {{ rgb 0 }} finish {{ reflection {{ rgb {vector(m.baseColor)}, rgb 1 falloff 5 }} }} }}")
+        return ("texture { pigment { rgb 0 } "
+                f"finish {{ reflection {{ rgb {vector(m.baseColor)}, rgb 1 falloff 5 }} }} }}")
     if any(m.emission):
         return f"texture {{ pigment {{ rgb {vector(m.emission)} }} finish {{ emission 1 }} }}"
     return f"texture {{ pigment {{ rgb {vector(m.baseColor)} }} finish {{ diffuse 1 }} }}"

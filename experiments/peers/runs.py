@@ -66,6 +66,7 @@ def povRay(file, out, job):
 
 def cyclesOf(file, out, job, samples):
     pathlib.Path(out).unlink(missing_ok=True)
-    output, seconds = timed(cycles.command(file, out, job["width"], job["height"], job["threads"], job["bounces"], samples))
+    options = (job["width"], job["height"], job["threads"], job["bounces"], samples)
+    output, seconds = timed(cycles.command(file, out, *options))
     wrote(out, "blender")
     return {"process_s": seconds, "render_s": found(SAMPLES_TIME, output, "blender"), "rays": ""}

@@ -20,7 +20,6 @@ SCENES = [("Cornell box", lambda c: ROOT / "scenes" / "cornell_box.glb"),
           ("height field", lambda c: c.heightField(c.pick(128, 512))),
           ("frame", lambda c: c.generated("frame", "--frame")),
           ("Sponza", lambda c: c.shared("bench/crytek-sponza/crytek-sponza.glb"))]
-GROUPS_AT_LEAST = 32  # PoCL's threads take at least so many work-groups of a launch at a time (POCL_PTHREAD_MIN_WGS)
 
 
 def threadCounts(processors):
@@ -148,7 +147,7 @@ def fits(measured):
 
 
 PARTS = {"ideal": "one thread's frame, shared evenly", "machine": "the machine's own ceiling", "host": "host, serial",
-         "small": "launches of too few work-groups", "searches": "searches", "streams": "other kernels"}
+         "searches": "searches", "packing": "packing the queues", "streams": "other kernels"}
 
 
 def losses(measured, scene):
@@ -164,8 +163,7 @@ def losses(measured, scene):
     parts["machine"] = device[0] * (1 / limit - 1 / measured.processors)
     parts["host"] = (every - device[1]) - (one - device[0]) / measured.processors
     for r in launches:
-        small = r["groups"] < GROUPS_AT_LEAST * measured.processors
-        part = "small" if small else "searches" if r["stage"] in stages.SEARCHES else "streams"
+        part = "searches" if r["stage"] in stages.SEARCHES else "packing" if r["stage"] == "compact" else "streams"
         parts[part] += r["all_processors_s"] - r["one_thread_s"] / limit
     return parts
 

@@ -14,7 +14,6 @@ from lib import style, table
 from lib.context import SCENES, RunFailed, Skipped
 from lib.measure import medianInterval
 
-NEEDS = ["frame_cost"]  # built beside the program
 COLUMNS = ["case", "variant", "round", "render_s", "after_s", "launches"]
 CASES = {"own wavefront": (640, 360, 2, 1 << 18), "wavefronts of 1024": (320, 180, 2, 1024)}
 ROUNDS = 200

@@ -181,9 +181,6 @@ def launches(axis, measured):
     axis.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=2, frameon=False, fontsize=8.5, borderpad=0,
                 handletextpad=0.2)
     axis.set_xscale("log")
-    axis.axvline(e5.GROUPS_AT_LEAST * measured.processors, color=style.GREY, linewidth=0.9)
-    axis.text(e5.GROUPS_AT_LEAST * measured.processors, 0.02, f" {e5.GROUPS_AT_LEAST} for each thread", fontsize=8,
-              transform=axis.get_xaxis_transform(), color=style.GREY)
     axis.set_xlabel("work-groups of a launch")
     axis.set_ylabel(f"speed-up of the launch on {measured.processors} threads")
     ratio = [r["one_thread_s"] / r["all_processors_s"] for r in measured.launches if r["all_processors_s"] > 0]

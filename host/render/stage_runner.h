@@ -17,8 +17,8 @@
 namespace whittle {
 
 /// Work items of a group where the user does not say: 64, as GPUs like them; with packets 8. PoCL hands a
-/// thread at least 32 groups at a time, and large ones would leave the other threads without work at the end
-/// of every launch.
+/// thread up to 32 groups times the threads at once, and large ones would leave the other threads without
+/// work at the end of every launch.
 int defaultWorkGroup(const SceneFeatures& features);
 
 /// What a launch works on: items as statistics count them, and the bytes of queues and film that it moves

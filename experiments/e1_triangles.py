@@ -27,7 +27,7 @@ def curves(threads):
 def sizes(context):
     if context.quick:
         return [1, 4, 16, 64, 256]
-    return sorted([2**k for k in range(13)] + [3 * 2**k for k in range(9)])
+    return sorted([2**k for k in range(13)] + [3 * 2**k for k in range(10)])
 
 
 def work(squares):

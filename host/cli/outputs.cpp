@@ -41,12 +41,15 @@ bool isStream(const fs::path& file) {
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
+/// To `path`, or to standard output as it is: opened anew, a file that it was redirected to would lose what
+/// it has.
 void writeStream(const fs::path& path, const std::string& text) {
-  std::FILE* const out = std::fopen(path.c_str(), "wb");
+  const bool standard = isStandardOutput(path);
+  std::FILE* const out = standard ? stdout : std::fopen(path.c_str(), "wb");
   bool written = out != nullptr && std::fwrite(text.data(), 1, text.size(), out) == text.size();
   written = written && std::fflush(out) == 0;
   const int error = errno;
-  if (out != nullptr) std::fclose(out);
+  if (out != nullptr && !standard) std::fclose(out);
   if (!written)
     throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(error)));
 }
@@ -94,7 +97,13 @@ void OutputCheck::picture(const std::string& option, const fs::path& file) {
 }
 
 void OutputCheck::text(const std::string& option, const fs::path& file) {
-  if (file.empty() || isStandardOutput(file)) return;
+  if (file.empty()) return;
+  if (isStandardOutput(file)) {
+    if (standardOutputUsed_)
+      throw InputError(fmt::format("{}: standard output is named for two outputs", option));
+    standardOutputUsed_ = true;
+    return;
+  }
   try {
     checkFolderWritable(file);
   } catch (const InputError& e) {
@@ -111,12 +120,12 @@ void writePicture(const fs::path& file, const FloatImage& radiance, float exposu
     writeRgb8(file, radiance.width, radiance.height, toneMap(radiance, exposure), metadata);
 }
 
+bool isToneMapped(const fs::path& file) { return hasExtension(file, {".png", ".jpg", ".jpeg"}); }
+
 bool isStandardOutput(const fs::path& file) { return file == "-"; }
 
 void writeTextFile(const fs::path& file, const std::string& text) {
-  if (isStandardOutput(file))
-    writeStream("/dev/stdout", text);
-  else if (isStream(file))
+  if (isStandardOutput(file) || isStream(file))
     writeStream(file, text);
   else
     writeWholeFile(file, std::as_bytes(std::span(text)));

@@ -38,11 +38,15 @@ class OutputCheck {
 
   int width_, height_;
   std::vector<std::filesystem::path> used_;
+  bool standardOutputUsed_ = false;
 };
 
 /// .exr: linear floats; .png/.jpg: tone-mapped at `exposure` stops. `metadata` goes into the file.
 void writePicture(const std::filesystem::path& file, const FloatImage& radiance, float exposure,
                   const ImageMetadata& metadata);
+
+/// Whether a picture's extension is of a format that holds tone-mapped colours, not radiance: .png, .jpg.
+bool isToneMapped(const std::filesystem::path& file);
 
 /// "-": text goes to standard output, and nothing else does.
 bool isStandardOutput(const std::filesystem::path& file);

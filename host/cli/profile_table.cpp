@@ -167,8 +167,10 @@ std::string errorLines(const Stats& s) {
     out += fmt::format("true error: {} W/(m² sr){}, measured against --reference\n", formatReal(*last.rmse),
                        shareOfMean(*last.rmse, last.mean));
   if (hasErrorTarget(s.settings) && !meetsTarget(s.settings, last))
-    out += fmt::format("not the target of {}: --rays-per-pixel or --time-limit came first\n",
-                       targetText(s.settings));
+    out += fmt::format("not the target of {}: {} came first\n", targetText(s.settings),
+                       s.samples.mean < s.settings.raysPerPixel && s.settings.timeLimit > 0.0
+                           ? "--time-limit"
+                           : "--rays-per-pixel");
   return out;
 }
 

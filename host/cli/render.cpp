@@ -53,6 +53,9 @@ void checkOutputs(RenderOptions& o) {
 
 FloatImage readReference(const RenderOptions& o) {
   if (o.reference.empty()) return {};
+  if (isToneMapped(o.reference))
+    throw InputError(fmt::format("--reference: {} holds tone-mapped colours, not radiance; give an .exr",
+                                 o.reference.string()));
   FloatImage image;
   try {
     image = readFloatImage(o.reference);
@@ -152,9 +155,9 @@ void writeResults(const RenderOptions& o, RenderResult& result, Clock::time_poin
 }
 
 void report(const RenderOptions& o, const Stats& stats) {
-  if (isStandardOutput(o.stats) || isStandardOutput(o.trace)) return;
-  if (o.profile) fmt::print("{}", profileTable(stats));
-  if (o.scene.quiet) return;
+  const bool taken = isStandardOutput(o.stats) || isStandardOutput(o.trace);
+  if (o.profile) fmt::print(taken ? stderr : stdout, "{}", profileTable(stats));
+  if (o.scene.quiet || taken) return;
   fmt::print("{}{}", o.profile ? "\n" : "", renderSummary(stats));
   for (const auto& file : o.outputs) fmt::print("wrote {}\n", file.string());
   for (const auto& aov : o.aovs) fmt::print("wrote {} ({})\n", aov.file.string(), aov.name);
@@ -198,9 +201,10 @@ void addRender(CLI::App& app, int& status) {
   CLI::App* c = app.add_subcommand("render", "render a scene on an OpenCL device");
   addSceneOptions(*c, o->scene);
   c->option_defaults()->group("Output");
-  addSeveral(
-      *c, "-o,--output", o->outputs, "FILE",
-      ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times [SCENE's name .png]");
+  addSeveral(*c, "-o,--output", o->outputs, "FILE",
+             ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times [SCENE's name "
+             ".png; none "
+             "with --profile, --stats, --trace or --aov]");
   addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE",
              "depth|normal|albedo|primitive|samples: of each pixel's first sample, or how many samples it "
              "has, as .exr; may be "
@@ -208,7 +212,8 @@ void addRender(CLI::App& app, int& status) {
   addFile(*c, "--stats", o->stats, "FILE",
           "statistics as JSON; -: on standard output, instead of the summary");
   c->add_flag("--profile", o->profile, "print time and rate of each stage");
-  addFile(*c, "--trace", o->trace, "FILE", "every kernel launch as Chrome/Perfetto JSON");
+  addFile(*c, "--trace", o->trace, "FILE",
+          "every kernel launch as Chrome/Perfetto JSON; -: on standard output");
   c->add_flag("--quiet", o->scene.quiet,
               "no progress, notes or summary; warnings, errors and --profile only");
   addPictureOptions(*c, o->settings);

@@ -81,16 +81,13 @@ void StageRunner::collect() {
   launches_.clear();
 }
 
-/// The device's clock is its own: the moment of queueing, which both clocks saw, ties them together.
 void StageRunner::recordLaunch(const Launch& launch, std::uint64_t start, std::uint64_t end) {
-  if (!hostMinusDevice_) {
-    const auto queued = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>();
-    hostMinusDevice_ = launch.enqueued - static_cast<double>(queued) * 1e-9;
-  }
+  const auto queued = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>();
+  const auto seconds = [](std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-9; };
   const StageOfBounce& of = stages_[launch.stage];
   trace_->launch({of.stage.name, launch.batch, of.bounce, launch.work.items, launch.work.bytes,
-                  launch.enqueued, static_cast<double>(start) * 1e-9 + *hostMinusDevice_,
-                  static_cast<double>(end) * 1e-9 + *hostMinusDevice_});
+                  launch.enqueued, seconds(start), seconds(end)},
+                 seconds(queued));
 }
 
 namespace {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -109,8 +108,6 @@ class StageRunner {
   std::vector<Launch> launches_;
   Trace* trace_ = nullptr;
   std::uint32_t batch_ = 0, bounce_ = 0;
-  std::optional<double>
-      hostMinusDevice_;  ///< seconds to add to the device's clock; found at the first launch recorded
 };
 
 }  // namespace whittle

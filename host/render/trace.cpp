@@ -57,8 +57,8 @@ void openEvent(Text& out, std::string_view name, const char* category, Trace::Tr
                  length.whole, length.thousandths);
 }
 
-void launchArguments(Text& out, const Trace::Launch& l) {
-  const Microseconds waited(l.start - l.enqueued);
+void launchArguments(Text& out, const Trace::Launch& l, double seconds) {
+  const Microseconds waited(seconds);
   fmt::format_to(std::back_inserter(out),
                  FMT_COMPILE(R"(,"args":{{"batch":{},"bounce":{},"queue":"{}",)"
                              R"("items":{},"bytes":{},"waited us":{}.{:03}}})"),
@@ -80,7 +80,7 @@ void Trace::phase(const char* name, Clock::time_point start, Track track) {
 double Trace::firstSecond() const {
   double first = std::numeric_limits<double>::infinity();
   for (const auto& p : phases_) first = std::min(first, p.start);
-  for (const auto& l : launches_) first = std::min(first, l.start);
+  for (const auto& l : launches_) first = std::min(first, l.start + hostMinusDevice_);
   return first;
 }
 
@@ -98,8 +98,9 @@ std::string Trace::toText() const {
     append("},\n");
   }
   for (const auto& l : launches_) {
-    openEvent(out, l.stage, "kernel", Track::Device, l.start - origin, l.end - origin);
-    launchArguments(out, l);
+    const double start = l.start + hostMinusDevice_, end = l.end + hostMinusDevice_;
+    openEvent(out, l.stage, "kernel", Track::Device, start - origin, end - origin);
+    launchArguments(out, l, start - l.enqueued);
     append("},\n");
   }
   out.resize(out.size() - 2);  // JSON wants no comma after the last

@@ -3,8 +3,10 @@
 // Perfetto read.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -22,12 +24,17 @@ class Trace {
     std::uint32_t batch = 0;   ///< of the render, from 0
     std::uint32_t bounce = 0;  ///< 1 = what the eye sees; 0: a stage outside the bounces
     std::uint64_t items = 0;
-    std::uint64_t bytes = 0;  ///< known at the launch (queue_traffic.h)
-    /// Seconds of the steady clock: given to the command queue, begun, done.
-    double enqueued = 0.0, start = 0.0, end = 0.0;
+    std::uint64_t bytes = 0;        ///< known at the launch (queue_traffic.h)
+    double enqueued = 0.0;          ///< seconds of the steady clock, right after it was given to the queue
+    double start = 0.0, end = 0.0;  ///< seconds of the device's clock
   };
 
-  void launch(Launch record) { launches_.push_back(std::move(record)); }
+  /// `queued`: when the launch reached the queue, in seconds of the device's clock. That clock is its own;
+  /// the launch that both saw within the shortest time ties it to the host's.
+  void launch(Launch record, double queued) {
+    hostMinusDevice_ = std::min(hostMinusDevice_, record.enqueued - queued);
+    launches_.push_back(std::move(record));
+  }
   /// From `start` to now; `name` is kept as it is, not copied. May be called from several threads.
   void phase(const char* name, Clock::time_point start, Track track = Track::Host);
 
@@ -44,6 +51,7 @@ class Trace {
   double firstSecond() const;
 
   std::vector<Launch> launches_;
+  double hostMinusDevice_ = std::numeric_limits<double>::infinity();  ///< seconds
   std::vector<Phase> phases_;
   std::mutex phasesMutex_;
 };

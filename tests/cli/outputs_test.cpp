@@ -118,7 +118,18 @@ TEST(Outputs, AMinusIsStandardOutputAndNothingElseGoesThere) {
       runWhittle(smallRender({"--stats", "-", "--profile", "-o", "a.exr"}), {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out)["rays"]["primary"], 32 * 24);
+  EXPECT_EQ(run.err.rfind("stage ", 0), 0U) << "the table goes to standard error then: " << run.err;
   EXPECT_EQ(folder.names(), Names{"a.exr"});
+}
+
+TEST(Outputs, AMinusAddsToTheFileThatStandardOutputIs) {
+  const Outcome run = runShell(
+      "log=$(mktemp); (echo first; \"$WHITTLE\" render \"" + scene() +
+      "\" --width 32 --height 24 --quiet --stats -; echo last) >\"$log\"; head -n 1 \"$log\"; tail -n 1 "
+      "\"$log\"; wc -l <\"$log\"; rm \"$log\"");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out.rfind("first\nlast\n", 0), 0U) << run.out;
+  EXPECT_GT(std::stoi(run.out.substr(11)), 100) << "the statistics are between them";
 }
 
 TEST(Outputs, APictureThatNoDeviceHoldsIsRefusedBeforeAnythingIsAllocated) {

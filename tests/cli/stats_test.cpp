@@ -359,7 +359,7 @@ TEST(Trace, HasOneEventForEachLaunchWithBounceAndItems) {
     EXPECT_GE(e["dur"].get<double>(), 0.0) << e;
     if (e["cat"] == "phase") {
       phases.insert(e["name"]);
-      hostEnd = std::max(hostEnd, e["ts"].get<double>() + e["dur"].get<double>());
+      if (e["name"] == "render") hostEnd = e["ts"].get<double>() + e["dur"].get<double>();
       continue;
     }
     end = std::max(end, e["ts"].get<double>() + e["dur"].get<double>());
@@ -382,8 +382,9 @@ TEST(Trace, HasOneEventForEachLaunchWithBounceAndItems) {
   }
   for (const char* phase : {"load", "build tree", "compile kernels", "upload", "render"})
     EXPECT_TRUE(phases.contains(phase)) << phase;
-  // One clock for both: the last kernel ends before the host writes (1 ms for the clocks' tie).
-  EXPECT_LE(end, hostEnd + 1e3);
+  // One clock for both: the last kernel ends before the host has waited for it (0.2 ms for the clocks' tie,
+  // which is late by as long as the shortest enqueueing takes).
+  EXPECT_LE(end, hostEnd + 200.0);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ from lib.measure import curve, interleaved
 COLUMNS = ["curve", "search", "threads", "width", "height", "squares", "triangles", "repetition", "render", "build",
            "load", "upload", "rays", "tree", "triangle_bytes", "memory"]
 LIMIT = 300.0  # seconds of one run with the array
+CLEAR = 0.2  # an exponent known less well is not stated
 
 
 def curves(threads):
@@ -90,18 +91,21 @@ def threadsText(threads):
 
 
 def trend(axis, x, y, colour):
-    """Draws the power law of the straight end over the points that it was fitted to; None for fewer than three."""
+    """Draws the power law of the straight end over the points that it was fitted to; None where it says nothing: fewer
+    than three points, or an exponent whose interval is wider than CLEAR to either side."""
     first = fit.straightEnd(x, y)
     if len(x) - first < 3:
         return None, x[0]
     law = fit.power(x[first:], y[first:])
+    if law[1][1] > CLEAR:
+        return None, x[first]
     ends = [x[first] / 1.5, x[-1] * 1.5]
     axis.plot(ends, law.curve(ends), color=colour, linewidth=5, alpha=0.22, solid_capstyle="butt")
     return law, x[first]
 
 
 def exponent(law, first):
-    return f"∝ n^({fit.shown(*law[1])}) from {style.countText(first)}" if law else "too few points"
+    return f"∝ n^({fit.shown(*law[1])}) from {style.countText(first)}" if law else "no clear exponent"
 
 
 def statement(rows, laws):
@@ -110,7 +114,7 @@ def statement(rows, laws):
     names = {s: f"{s} {threads} 320x180" for s in ("array", "tree")}
     points = {s: curve(rows, "triangles", "render", curve=name) for s, name in names.items()}
     both = [n for n in points["array"][0] if n in points["tree"][0]]
-    if not both or not all(laws.values()):
+    if not both or not laws[names["array"]]:
         return "Time of a frame against the number of triangles"
     median = {s: dict(zip(p[0], p[1])) for s, p in points.items()}
     gain = median["array"][both[-1]] / median["tree"][both[-1]]

@@ -86,10 +86,6 @@ def measure(context):
     measureAll(context, context.table("e1_triangles", COLUMNS), ends)
 
 
-def threadsText(threads):
-    return "1 thread" if threads == 1 else f"{threads} threads"
-
-
 def trend(axis, x, y, colour):
     """Draws the power law of the straight end over the points that it was fitted to; None where it says nothing: fewer
     than three points, or an exponent whose interval is wider than CLEAR to either side."""
@@ -134,7 +130,7 @@ def plotTimes(rows, folder):
         style.draw(axis, i, x, y, low, high)
         colour = style.look(i)["color"]
         laws[name], first = trend(axis, x, y, colour)
-        text = f"{search}, {threadsText(threads)}, {width}×{height}\n{exponent(laws[name], first)}"
+        text = f"{search}, {style.threadsText(threads)}, {width}×{height}\n{exponent(laws[name], first)}"
         if search == "array":  # ends amid the plot, with room beside it
             one = threads == 1
             axis.annotate(text, (x[-1], y[-1]), (-14 if one else 12, 8 if one else -8), textcoords="offset points",
@@ -152,7 +148,7 @@ def plotBuild(rows, folder):
     labels, fitted = style.EndLabels(axis), []
     most = max(r["threads"] for r in rows)
     lines = [("load", most, "load the file"), ("build", 1, "build the tree, 1 thread"),
-             ("build", most, f"build the tree, {threadsText(most)}")]
+             ("build", most, f"build the tree, {style.threadsText(most)}")]
     for i, (key, threads, words) in enumerate(lines):
         x, y, low, high = curve([r for r in rows if r["search"] == "tree"], "triangles", key,
                                         curve=f"tree {threads} 320x180")

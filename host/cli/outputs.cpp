@@ -51,7 +51,8 @@ void writeStream(const fs::path& path, const std::string& text) {
   const int error = errno;
   if (out != nullptr && !standard) std::fclose(out);
   if (!written)
-    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(error)));
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}",
+                                         standard ? "standard output" : path.string(), std::strerror(error)));
 }
 
 }  // namespace

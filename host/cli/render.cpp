@@ -201,10 +201,10 @@ void addRender(CLI::App& app, int& status) {
   CLI::App* c = app.add_subcommand("render", "render a scene on an OpenCL device");
   addSceneOptions(*c, o->scene);
   c->option_defaults()->group("Output");
-  addSeveral(*c, "-o,--output", o->outputs, "FILE",
-             ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times [SCENE's name "
-             ".png; none "
-             "with --profile, --stats, --trace or --aov]");
+  addSeveral(
+      *c, "-o,--output", o->outputs, "FILE",
+      ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times [SCENE's name .png; "
+      "none with --profile, --stats, --trace or --aov]");
   addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE",
              "depth|normal|albedo|primitive|samples: of each pixel's first sample, or how many samples it "
              "has, as .exr; may be "

@@ -11,7 +11,7 @@
 
 #include "bench/query_runner.h"
 #include "bvh/tree_stats.h"
-#include "scene/gltf_loader.h"
+#include "gltf/loader.h"
 #include "tests/support/sweep_tree.h"
 
 namespace whittle {

@@ -14,9 +14,9 @@
 #include <span>
 #include <string>
 
-#include "cli/profile_table.h"
+#include "gltf/loader.h"
 #include "render/renderer.h"
-#include "scene/gltf_loader.h"
+#include "report/profile_table.h"
 
 namespace whittle {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "bench/ray_sets.h"
 #include "bvh/tri_tree.h"
-#include "render/device_scene.h"
-#include "render/stage_runner.h"
+#include "wavefront/device_scene.h"
+#include "wavefront/stage_runner.h"
 
 namespace whittle {
 

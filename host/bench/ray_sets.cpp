@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "render/pixel_order.h"
+#include "wavefront/pixel_order.h"
 
 namespace whittle {
 namespace {

@@ -11,8 +11,8 @@
 #include "cli/commands.h"
 #include "cli/help.h"
 #include "cli/signals.h"
-#include "cli/text.h"
-#include "render/compiler_process.h"
+#include "programs/compiler_process.h"
+#include "report/text.h"
 #include "scene/input_error.h"
 
 namespace whittle::cli {

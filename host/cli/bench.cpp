@@ -14,7 +14,7 @@
 #include "cli/option_kinds.h"
 #include "cli/options.h"
 #include "cli/progress_bar.h"
-#include "cli/text.h"
+#include "report/text.h"
 
 namespace whittle::cli {
 namespace {

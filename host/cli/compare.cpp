@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "cli/text.h"
 #include "image/metrics.h"
+#include "report/text.h"
 
 namespace whittle::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include "cl/device.h"
 #include "cl/program.h"
 #include "cli/commands.h"
-#include "cli/text.h"
+#include "report/text.h"
 
 namespace whittle::cli {
 namespace {

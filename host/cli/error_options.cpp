@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "cli/option_kinds.h"
-#include "cli/text.h"
-#include "render/sample_counts.h"
+#include "report/text.h"
+#include "wavefront/sample_counts.h"
 
 namespace whittle::cli {
 namespace {
@@ -71,11 +71,6 @@ std::vector<std::string> uselessAdaptive(const Settings& s) {
       fmt::format("--adaptive: changes nothing up to {} rays for each pixel, which all get alike; "
                   "a larger --rays-per-pixel lets it choose",
                   kPilotSamples)};
-}
-
-std::string targetText(const Settings& s) {
-  if (s.targetErrorRelative > 0.0) return formatReal(100.0 * s.targetErrorRelative) + " % of the mean";
-  return formatReal(s.targetError) + " W/(m² sr)";
 }
 
 }  // namespace whittle::cli

@@ -19,7 +19,4 @@ void settleRaysPerPixel(const CLI::App& command, Settings& settings);
 /// A line where --adaptive has nothing to give out.
 std::vector<std::string> uselessAdaptive(const Settings& settings);
 
-/// "0.002 W/(m² sr)" or "1 % of the mean": what was asked for.
-std::string targetText(const Settings& settings);
-
 }  // namespace whittle::cli

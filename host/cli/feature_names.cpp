@@ -8,8 +8,8 @@
 #include <cctype>
 #include <vector>
 
-#include "cli/text.h"
-#include "render/scene_features.h"
+#include "analysis/scene_features.h"
+#include "report/text.h"
 #include "scene/input_error.h"
 
 namespace whittle::cli {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cli/text.h"
+#include "report/text.h"
 
 namespace whittle::cli {
 namespace {

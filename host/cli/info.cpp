@@ -11,8 +11,8 @@
 #include "cli/option_kinds.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
-#include "render/camera_to_device.h"
 #include "render/renderer.h"
+#include "wavefront/camera_to_device.h"
 
 namespace whittle::cli {
 namespace {

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <vector>
 
-#include "cli/text.h"
-#include "render/feature_needs.h"
+#include "analysis/feature_needs.h"
+#include "report/text.h"
 
 namespace whittle::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "render/scene_features.h"
+#include "analysis/scene_features.h"
 
 namespace whittle::cli {
 

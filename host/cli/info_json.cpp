@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "cli/info_report.h"
-#include "render/json_float.h"
+#include "report/json_float.h"
 
 namespace whittle::cli {
 namespace {

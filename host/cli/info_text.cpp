@@ -8,7 +8,7 @@
 #include "cl/program.h"
 #include "cli/info_features.h"
 #include "cli/info_report.h"
-#include "cli/text.h"
+#include "report/text.h"
 
 namespace whittle::cli {
 namespace {

@@ -9,13 +9,13 @@
 #include <limits>
 #include <sstream>
 
+#include "analysis/feature_needs.h"
 #include "cli/error_options.h"
 #include "cli/feature_names.h"
 #include "cli/option_kinds.h"
-#include "cli/text.h"
-#include "render/feature_needs.h"
-#include "scene/gltf_loader.h"
-#include "scene/image_io.h"
+#include "gltf/loader.h"
+#include "image/image_io.h"
+#include "report/text.h"
 #include "scene/input_error.h"
 
 namespace whittle::cli {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/image_io.h"
+#include "image/image_io.h"
 
 namespace whittle::cli {
 

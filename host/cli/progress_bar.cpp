@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "cli/text.h"
+#include "report/text.h"
 
 namespace whittle::cli {
 namespace {

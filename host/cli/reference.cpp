@@ -10,9 +10,9 @@
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
-#include "cli/text.h"
 #include "reference/reference.h"
-#include "render/stats.h"
+#include "report/stats.h"
+#include "report/text.h"
 
 namespace whittle::cli {
 namespace {

@@ -14,11 +14,11 @@
 #include "cli/option_kinds.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
-#include "cli/profile_table.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
-#include "cli/text.h"
 #include "render/renderer.h"
+#include "report/profile_table.h"
+#include "report/text.h"
 
 namespace whittle::cli {
 namespace {

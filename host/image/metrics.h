@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scene/image_io.h"
+#include "image/image_io.h"
 
 namespace whittle {
 

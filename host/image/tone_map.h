@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/image_io.h"
+#include "image/image_io.h"
 
 namespace whittle {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "scene/image_io.h"
+#include "image/image_io.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "analysis/scene_features.h"
 #include "cl/device.h"
-#include "render/scene_features.h"
-#include "render/stats.h"
+#include "report/stats.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 

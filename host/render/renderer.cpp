@@ -8,19 +8,19 @@
 #include <cmath>
 #include <future>
 
+#include "analysis/radiance_bound.h"
 #include "bvh/tri_tree.h"
 #include "cl/device.h"
 #include "cl/program.h"
-#include "render/camera_to_device.h"
-#include "render/compiler_process.h"
-#include "render/film.h"
-#include "render/kernel_programs.h"
-#include "render/pixel_order.h"
+#include "programs/compiler_process.h"
+#include "programs/kernel_programs.h"
 #include "render/plan.h"
-#include "render/radiance_bound.h"
 #include "render/sampling_loop.h"
-#include "render/wavefront.h"
 #include "scene/input_error.h"
+#include "wavefront/camera_to_device.h"
+#include "wavefront/film.h"
+#include "wavefront/pixel_order.h"
+#include "wavefront/wavefront.h"
 
 namespace whittle {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "render/stats.h"
-#include "render/trace.h"
-#include "scene/image_io.h"
+#include "image/image_io.h"
+#include "report/stats.h"
+#include "report/trace.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 

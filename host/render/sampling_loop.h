@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "cl/program.h"
-#include "render/film.h"
 #include "render/renderer.h"
-#include "render/sample_counts.h"
-#include "render/wavefront.h"
+#include "wavefront/film.h"
+#include "wavefront/sample_counts.h"
+#include "wavefront/wavefront.h"
 
 namespace whittle {
 

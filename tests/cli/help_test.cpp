@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "cli/text.h"
+#include "report/text.h"
 #include "run_whittle.h"
 
 namespace whittle::test {
@@ -27,7 +27,7 @@ TEST_P(Help, FitsATerminalAndSpeaksThisProgramsWords) {
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.err, "");
   std::istringstream in(run.out);
-  for (std::string line; std::getline(in, line);) EXPECT_LE(cli::columnsOf(line), 80U) << line;
+  for (std::string line; std::getline(in, line);) EXPECT_LE(columnsOf(line), 80U) << line;
   for (const char* noise : {"REQUIRED", "TEXT", "INT", "FLOAT", "UINT", "Needs", "{", ":NONNEGATIVE"})
     EXPECT_EQ(run.out.find(noise), std::string::npos) << noise << " in:\n" << run.out;
   EXPECT_NE(run.out.find("Example: whittle "), std::string::npos);

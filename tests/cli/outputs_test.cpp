@@ -6,8 +6,8 @@
 #include <csignal>
 #include <thread>
 
+#include "image/image_io.h"
 #include "run_whittle.h"
-#include "scene/image_io.h"
 
 namespace whittle::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
-#include "cli/text.h"
+#include "image/image_io.h"
+#include "report/text.h"
 #include "run_whittle.h"
-#include "scene/image_io.h"
 
 namespace whittle::test {
 namespace {
@@ -37,7 +37,7 @@ TEST(Info, TextFitsATerminal) {
          {"", "normal map,absorption,sobol sampler,shadows through transparent surfaces"}) {
       std::istringstream text(
           runWhittle({"info", scene(name), "--bounces", "1", "--keep-features", keep}).out);
-      for (std::string line; std::getline(text, line);) EXPECT_LE(cli::columnsOf(line), 80U) << line;
+      for (std::string line; std::getline(text, line);) EXPECT_LE(columnsOf(line), 80U) << line;
     }
 }
 

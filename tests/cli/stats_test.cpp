@@ -9,10 +9,10 @@
 #include <numeric>
 #include <set>
 
-#include "cli/text.h"
-#include "render/json_float.h"
+#include "image/image_io.h"
+#include "report/json_float.h"
+#include "report/text.h"
 #include "run_whittle.h"
-#include "scene/image_io.h"
 
 namespace whittle::test {
 namespace {
@@ -77,8 +77,8 @@ TEST(Summary, HasTheTrueErrorBesideTheEstimate) {
     const double rmse = Json::parse(compared.out)["rmse"];
     const FloatImage picture = readFloatImage(folder / "a.exr");
     const double mean = std::accumulate(picture.pixels.begin(), picture.pixels.end(), 0.0) / (32 * 24 * 3);
-    const std::string line = "true error: " + cli::formatReal(rmse) + " W/(m² sr), " +
-                             cli::formatReal(100 * rmse / mean) + " % of the mean";
+    const std::string line =
+        "true error: " + formatReal(rmse) + " W/(m² sr), " + formatReal(100 * rmse / mean) + " % of the mean";
     EXPECT_TRUE(has(text, line)) << line << " in:\n" << text;
     EXPECT_EQ(has(text, "estimated error"), std::string(rays) == "2") << text;
   }
@@ -230,8 +230,8 @@ TEST(Stats, TheMeanIsThatOfThePicture) {
   const Json s = readJson(folder / "s.json");
   // Sums of 768 numbers, in the same order or another: far fewer than 1e4 roundings of 1e-16 each.
   EXPECT_NEAR(s["meanRadiance"].get<double>(), mean, 1e-12 * mean);
-  const std::string line = "W/(m² sr) off the mean, which is " + cli::formatReal(mean) + ": " +
-                           cli::formatReal(100 * s["biasBound"].get<double>() / mean) + " %\n";
+  const std::string line = "W/(m² sr) off the mean, which is " + formatReal(mean) + ": " +
+                           formatReal(100 * s["biasBound"].get<double>() / mean) + " %\n";
   EXPECT_NE(run.out.find(line), std::string::npos) << line << " in:\n" << run.out;
 }
 

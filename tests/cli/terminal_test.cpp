@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "cli/text.h"
+#include "report/text.h"
 #include "run_whittle.h"
 
 namespace whittle::test {
@@ -65,7 +65,7 @@ TEST_F(Terminal, ProgressFitsTheWindowAndIsWipedAtTheEnd) {
     ASSERT_GE(shown.size(), 2U) << "no progress";
     EXPECT_EQ(text.find("compiling kernels") != std::string::npos, columns > 12);
     EXPECT_NE(text.find(" %"), std::string::npos);
-    for (const auto& line : shown) EXPECT_LE(cli::columnsOf(line), columns) << line;
+    for (const auto& line : shown) EXPECT_LE(columnsOf(line), columns) << line;
     // After the last wipe comes the summary alone.
     EXPECT_EQ(text.substr(begin, 6), "32×24") << text.substr(begin);
   }

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "cli/text.h"
+#include "report/text.h"
 #include "run_whittle.h"
 
 namespace whittle::test {
@@ -53,7 +53,7 @@ TEST_F(Trimmed, TextNamesEachThingWithItsReason) {
         "2  far  out of range of every triangle\n", "masks cut nothing out"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " in:\n" << text;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(cli::columnsOf(line), 80U) << line;
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(columnsOf(line), 80U) << line;
   EXPECT_NE(info({"--keep-all-features"}).find("Not sent to the device\n  nothing\n"), std::string::npos);
 }
 

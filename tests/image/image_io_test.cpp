@@ -1,6 +1,6 @@
 // Image files: what is written is read back, what is broken is refused with one line, nothing is left half
 // written.
-#include "scene/image_io.h"
+#include "image/image_io.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

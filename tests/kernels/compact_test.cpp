@@ -2,9 +2,9 @@
 // that divide the count, that do not, and that are longer than it; flags in bytes and in words.
 #include <gtest/gtest.h>
 
+#include "analysis/scene_features.h"
 #include "kernels/shared/features.h"
 #include "kernels/shared/layout.h"
-#include "render/scene_features.h"
 #include "support/kernel_bench.h"
 #include "support/random_scenes.h"
 

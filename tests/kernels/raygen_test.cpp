@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "reference/camera.h"
-#include "render/camera_to_device.h"
 #include "support/kernel_bench.h"
 #include "support/random_scenes.h"
+#include "wavefront/camera_to_device.h"
 
 namespace whittle {
 namespace {

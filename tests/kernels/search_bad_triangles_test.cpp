@@ -3,7 +3,7 @@
 // were absent.
 #include <gtest/gtest.h>
 
-#include "scene/gltf_builder.h"
+#include "gltf/builder.h"
 #include "stability/record.h"
 #include "support/search_bench.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "pictures.h"
-#include "render/sample_counts.h"
+#include "wavefront/sample_counts.h"
 
 namespace whittle::test {
 namespace {

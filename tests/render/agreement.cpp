@@ -1,6 +1,6 @@
 // See agreement.h.
 #include "agreement.h"
-#include "render/camera_to_device.h"
+#include "wavefront/camera_to_device.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 #include <unistd.h>
 #include <cstdlib>
 
+#include "image/image_io.h"
 #include "pictures.h"
-#include "scene/image_io.h"
 #include "stability/record.h"
 
 namespace whittle::test {

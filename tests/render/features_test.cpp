@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <set>
 
+#include "analysis/feature_needs.h"
+#include "analysis/scene_features.h"
 #include "cl/kernel_source.h"
 #include "pictures.h"
-#include "render/feature_needs.h"
-#include "render/kernel_programs.h"
+#include "programs/kernel_programs.h"
 #include "render/plan.h"
-#include "render/scene_features.h"
 #include "single_rays.h"
 #include "support/test_device.h"
 

@@ -1,11 +1,11 @@
 // Programs cut down by what their text asks for: the conditions are read as a compiler reads them, and no
 // stage is left out.
-#include "render/kernel_programs.h"
+#include "programs/kernel_programs.h"
 
 #include <gtest/gtest.h>
 
-#include "render/asked_features.h"
-#include "render/compiler_process.h"
+#include "programs/asked_features.h"
+#include "programs/compiler_process.h"
 #include "render/plan.h"
 #include "support/test_device.h"
 

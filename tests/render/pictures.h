@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include "gltf/loader.h"
 #include "render/renderer.h"
-#include "scene/gltf_loader.h"
 #include "support/test_device.h"
 
 namespace whittle::test {

@@ -1,5 +1,5 @@
 // Bytes that stages move, against counts made by hand from what the kernels read and write.
-#include "render/queue_traffic.h"
+#include "wavefront/queue_traffic.h"
 
 #include "pictures.h"
 

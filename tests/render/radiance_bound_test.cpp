@@ -1,11 +1,11 @@
 // The bound on radiance against rays of the double-precision recursion, and where it must be exact.
-#include "render/radiance_bound.h"
+#include "analysis/radiance_bound.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "render/largest_biradiance.h"
+#include "analysis/largest_biradiance.h"
 #include "single_rays.h"
 #include "support/random_scenes.h"
 

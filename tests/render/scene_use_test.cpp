@@ -1,5 +1,5 @@
 // What stays on the host: each rule on a scene that it fits, and on one that misses it by a hair.
-#include "render/scene_use.h"
+#include "analysis/scene_use.h"
 
 #include <cmath>
 #include <limits>

@@ -3,9 +3,9 @@
 #include <numeric>
 
 #include "reference/camera.h"
-#include "render/camera_to_device.h"
 #include "scene/input_error.h"
 #include "single_rays.h"
+#include "wavefront/camera_to_device.h"
 
 namespace whittle::test {
 namespace {

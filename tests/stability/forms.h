@@ -4,8 +4,8 @@
 
 #include <initializer_list>
 
+#include "analysis/scene_features.h"
 #include "reference/reference.h"
-#include "render/scene_features.h"
 #include "render/single_rays.h"
 #include "stability/record.h"
 #include "support/search_bench.h"

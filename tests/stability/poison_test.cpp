@@ -1,7 +1,7 @@
 // Case 31: numbers that are no numbers, from a file or by hand. The picture stays finite, and something says
 // how much of it was lost: the count of samples, or a warning at loading.
 #include "forms.h"
-#include "scene/gltf_builder.h"
+#include "gltf/builder.h"
 
 namespace whittle::test {
 namespace {

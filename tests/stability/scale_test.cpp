@@ -1,7 +1,7 @@
 // The same room in micrometres and in light-years, moved far from the origin, and through transforms that
 // stretch, mirror or flatten.
 #include "forms.h"
-#include "scene/gltf_builder.h"
+#include "gltf/builder.h"
 
 namespace whittle::test {
 namespace {

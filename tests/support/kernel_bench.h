@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cl/kernel_source.h"
-#include "render/stage_runner.h"
 #include "support/test_device.h"
+#include "wavefront/stage_runner.h"
 
 namespace whittle::test {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "kernels/shared/layout.h"
-#include "render/device_scene.h"
 #include "support/kernel_bench.h"
 #include "support/random_scenes.h"
+#include "wavefront/device_scene.h"
 
 namespace whittle::test {
 

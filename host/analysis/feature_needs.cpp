@@ -1,0 +1,133 @@
+// The table of needs follows the conditions of kernels/shade.cl, occlude.cl and kernels/lib; what
+// --keep-features keeps is closed under it.
+#include "analysis/feature_needs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace whittle {
+namespace {
+
+constexpr std::uint64_t bitOf(Feature f) { return std::uint64_t{1} << static_cast<int>(f); }
+
+std::uint64_t bitsOf(const std::vector<Feature>& features) {
+  std::uint64_t bits = 0;
+  for (const Feature f : features) bits |= bitOf(f);
+  return bits;
+}
+
+/// Features that would go against what the settings say, each with the reason.
+std::map<Feature, std::string> contradictions(const Settings& s) {
+  std::map<Feature, std::string> out;
+  if (s.lanes == Lanes::One) out[Feature::PACKETS] = "--lanes is 1";
+  if (s.search == Search::Array) out[Feature::TREE] = "--search is array";
+  if (!s.shadows) out[Feature::SHADOWS] = "shadows are switched off";
+  if (s.impulses == ImpulseMode::All) out[Feature::ONE_IMPULSE] = "--impulses is all";
+  return out;
+}
+
+/// The contradictions, and what is nothing without them.
+std::map<Feature, std::string> barredFeatures(const Settings& s) {
+  std::map<Feature, std::string> barred = contradictions(s);
+  const auto isBarred = [&](Feature f) { return barred.contains(f); };
+  for (std::size_t before = 0; before != barred.size();) {
+    before = barred.size();
+    for (const FeatureNeed& need : featureNeeds())
+      if (!isBarred(need.feature) && std::all_of(need.oneOf.begin(), need.oneOf.end(), isBarred))
+        barred[need.feature] =
+            fmt::format("it needs '{}', and {}", featureText(need.oneOf.front()), barred[need.oneOf.front()]);
+  }
+  return barred;
+}
+
+}  // namespace
+
+const std::vector<FeatureNeed>& featureNeeds() {
+  using F = Feature;
+  // What changes how a surface answers to light shows where there is light, or in an impulse.
+  const std::vector<F> scattering{F::LIGHTS, F::IMPULSES};
+  static const std::vector<FeatureNeed> needs{
+      {F::SHADOWS, {F::LIGHTS}},
+      {F::FILTERED_SHADOWS, {F::SHADOWS}},
+      {F::LIGHTS, {F::POINT_LIGHTS, F::DIRECTIONAL_LIGHTS, F::SPOT_LIGHTS}},
+      {F::POINT_LIGHTS, {F::LIGHTS}},
+      {F::DIRECTIONAL_LIGHTS, {F::LIGHTS}},
+      {F::SPOT_LIGHTS, {F::LIGHTS}},
+      {F::LIGHT_RANGE, {F::POINT_LIGHTS, F::SPOT_LIGHTS}},
+      {F::MICROFACET, {F::LIGHTS}},
+      {F::METAL, {F::MICROFACET, F::MIRROR, F::REFRACTION}},
+      {F::SPECULAR_EXTENSION, scattering},
+      {F::VERTEX_NORMALS, scattering},
+      {F::VERTEX_COLORS, {F::LIGHTS, F::IMPULSES, F::UNLIT, F::ALPHA_MASK}},
+      // Impulses: where they start, what they are called, how many there are.
+      {F::MIRROR, {F::IMPULSES}},
+      {F::TRANSMISSION, {F::IMPULSES}},
+      {F::REFRACTION, {F::TRANSMISSION}},
+      {F::ABSORPTION, {F::TRANSMISSION, F::UNLIT}},  // a way into a volume
+      {F::ALPHA_BLEND, {F::IMPULSES}},
+      {F::BOTH_BRANCHES, {F::IMPULSES}},
+      {F::ONE_IMPULSE, {F::IMPULSES}},
+      {F::CUTOFF, {F::IMPULSES}},
+      {F::FIXED_BUMP, {F::SHADOWS, F::IMPULSES}},
+      // A texture is read by a slot, at coordinates.
+      {F::TEXTURES,
+       {F::BASE_COLOR_TEXTURE, F::METALLIC_ROUGHNESS_TEXTURE, F::NORMAL_TEXTURE, F::EMISSION_TEXTURE,
+        F::SPECULAR_TEXTURE, F::SPECULAR_COLOR_TEXTURE, F::TRANSMISSION_TEXTURE}},
+      {F::TEXTURES, {F::UV0, F::UV1}},
+      {F::UV0, {F::TEXTURES}},
+      {F::UV1, {F::TEXTURES}},
+      {F::NEAREST_FILTER, {F::TEXTURES}},
+      {F::BASE_COLOR_TEXTURE, {F::TEXTURES}},
+      {F::BASE_COLOR_TEXTURE, {F::LIGHTS, F::IMPULSES, F::UNLIT, F::ALPHA_MASK}},
+      {F::METALLIC_ROUGHNESS_TEXTURE, {F::TEXTURES}},
+      {F::METALLIC_ROUGHNESS_TEXTURE, scattering},
+      {F::NORMAL_TEXTURE, {F::TEXTURES}},
+      {F::NORMAL_TEXTURE, scattering},
+      {F::EMISSION_TEXTURE, {F::TEXTURES}},
+      {F::EMISSION_TEXTURE, {F::EMISSION}},
+      {F::SPECULAR_TEXTURE, {F::TEXTURES}},
+      {F::SPECULAR_TEXTURE, {F::SPECULAR_EXTENSION}},
+      {F::SPECULAR_COLOR_TEXTURE, {F::TEXTURES}},
+      {F::SPECULAR_COLOR_TEXTURE, {F::SPECULAR_EXTENSION}},
+      {F::TRANSMISSION_TEXTURE, {F::TEXTURES}},
+      {F::TRANSMISSION_TEXTURE, {F::TRANSMISSION}},
+      {F::BACKGROUND_MAP, {F::BACKGROUND}},
+  };
+  return needs;
+}
+
+KeptFeatures keptFeatures(const Settings& settings, std::uint64_t used) {
+  KeptFeatures kept;
+  const auto barred = barredFeatures(settings);
+  for (const Feature f : allFeatures())
+    if (!barred.contains(f)) kept.bits |= bitOf(f) & settings.keepFeatures & ~used;
+  for (std::uint64_t before = 0; before != kept.bits;) {
+    before = kept.bits;
+    for (const FeatureNeed& need : featureNeeds()) {
+      if (!(kept.bits & bitOf(need.feature)) || ((kept.bits | used) & bitsOf(need.oneOf))) continue;
+      const auto first =
+          std::find_if(need.oneOf.begin(), need.oneOf.end(), [&](Feature f) { return !barred.contains(f); });
+      kept.bits |= bitOf(*first);  // there is one: else the feature would be barred
+      kept.neededBy.emplace(*first, need.feature);
+    }
+  }
+  return kept;
+}
+
+std::vector<std::string> uselessKeeps(const Settings& settings) {
+  std::vector<std::string> lines;
+  const auto barred = barredFeatures(settings);
+  for (const Feature f : allFeatures()) {
+    if (!(settings.keepFeatures & bitOf(f))) continue;
+    const auto found = barred.find(f);
+    if (found != barred.end())
+      lines.push_back(fmt::format("--keep-features: '{}' stays out: {}", featureText(f), found->second));
+    else if (f == Feature::SAMPLER_RANDOM)
+      lines.push_back(
+          fmt::format("--keep-features: '{}' adds nothing: it is there in any case", featureText(f)));
+  }
+  return lines;
+}
+
+}  // namespace whittle

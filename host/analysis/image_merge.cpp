@@ -1,0 +1,82 @@
+// Images sorted by size and a hash of their texels; only neighbours with equal keys are compared.
+#include "analysis/image_merge.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <tuple>
+
+namespace whittle {
+namespace {
+
+/// Four sums side by side, each multiplied along (the odd constant of splitmix64), so that no step waits for
+/// the last.
+std::uint64_t hashOf(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;
+  std::uint64_t sums[4] = {1, 2, 3, 4};
+  std::size_t at = 0;
+  for (; at + 32 <= bytes.size(); at += 32) {
+    std::uint64_t words[4];
+    std::memcpy(words, bytes.data() + at, sizeof(words));
+    for (int k = 0; k < 4; ++k) sums[k] = (sums[k] ^ words[k]) * odd;
+  }
+  for (; at < bytes.size(); ++at) sums[0] = (sums[0] ^ bytes[at]) * odd;
+  std::uint64_t all = bytes.size();
+  for (const std::uint64_t sum : sums) all = (all ^ (sum >> 32) ^ sum) * odd;
+  return all;
+}
+
+struct Key {
+  int width, height;
+  std::uint64_t hash;
+  std::uint32_t index;
+
+  auto picture() const { return std::tie(width, height, hash); }
+  bool operator<(const Key& other) const {
+    return std::tie(width, height, hash, index) <
+           std::tie(other.width, other.height, other.hash, other.index);
+  }
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> firstAlike(const std::vector<Image>& images,
+                                      const std::vector<std::uint8_t>& wanted) {
+  std::vector<std::uint32_t> first(images.size());
+  std::map<std::pair<int, int>, int> ofSize;
+  for (std::uint32_t i = 0; i < images.size(); ++i) {
+    first[i] = i;
+    if (wanted[i]) ++ofSize[{images[i].width, images[i].height}];
+  }
+  std::vector<Key> keys;
+  for (std::uint32_t i = 0; i < images.size(); ++i)
+    if (wanted[i] && ofSize[{images[i].width, images[i].height}] > 1)
+      keys.push_back({images[i].width, images[i].height, 0, i});
+  tbb::parallel_for(std::size_t{0}, keys.size(),
+                    [&](std::size_t k) { keys[k].hash = hashOf(images[keys[k].index].texels); });
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t k = 1; k < keys.size(); ++k) {
+    const std::uint32_t before = first[keys[k - 1].index];
+    if (keys[k].picture() == keys[k - 1].picture() && images[before].texels == images[keys[k].index].texels)
+      first[keys[k].index] = before;
+  }
+  return first;
+}
+
+std::uint8_t leastAlpha(const Image& image) {
+  using Range = tbb::blocked_range<std::size_t>;
+  return tbb::parallel_reduce(
+      Range(0, image.texels.size() / 4, 1 << 16), std::uint8_t{255},
+      [&](const Range& range, std::uint8_t least) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+          least = std::min(least, image.texels[4 * i + 3]);
+        return least;
+      },
+      [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+}
+
+}  // namespace whittle

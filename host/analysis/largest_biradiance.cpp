@@ -1,0 +1,93 @@
+// See largest_biradiance.h. Ericson, Real-Time Collision Detection (2005), 5.1: nearest points of triangles.
+#include "analysis/largest_biradiance.h"
+
+#include <tbb/combinable.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace whittle {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// The kernels blend a hit's position from three corners in single precision: five roundings for each axis.
+constexpr double kHitRounding = 0x1p-20;
+
+using Corners = std::array<glm::dvec3, 3>;
+
+double toSegment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 along = b - a;
+  const double square = glm::dot(along, along);
+  const double t = square > 0 ? std::clamp(glm::dot(p - a, along) / square, 0.0, 1.0) : 0.0;
+  return glm::length(a + t * along - p);
+}
+
+/// Degenerate triangles are their edges.
+double toTriangle(const glm::dvec3& p, const Corners& c) {
+  const glm::dvec3 n = glm::cross(c[1] - c[0], c[2] - c[0]);
+  bool above = glm::dot(n, n) > 0;
+  double edges = kInfinity;
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 &a = c[i], &b = c[(i + 1) % 3];
+    above = above && glm::dot(glm::cross(b - a, p - a), n) >= 0;
+    edges = std::min(edges, toSegment(p, a, b));
+  }
+  return above ? std::min(edges, std::abs(glm::dot(p - c[0], n)) / glm::length(n)) : edges;
+}
+
+/// Never more than toTriangle, and cheap.
+double toBox(const glm::dvec3& p, const Corners& c) {
+  const glm::dvec3 lo = glm::min(c[0], glm::min(c[1], c[2])), hi = glm::max(c[0], glm::max(c[1], c[2]));
+  return glm::length(glm::max(glm::max(lo - p, p - hi), glm::dvec3(0)));
+}
+
+double roundingOf(const Corners& c) {
+  const glm::dvec3 size = glm::max(glm::abs(c[0]), glm::max(glm::abs(c[1]), glm::abs(c[2])));
+  return kHitRounding * std::max(size.x, std::max(size.y, size.z));
+}
+
+/// For each material, how near to `p` a hit on it can be, metres; infinite where it has no triangle.
+std::vector<double> nearestHits(const Scene& scene, const glm::dvec3& p) {
+  const std::vector<double> none(scene.materials.size(), kInfinity);
+  tbb::combinable<std::vector<double>> ofThread([&] { return none; });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scene.triangles.size(), 4096), [&](const auto& range) {
+    std::vector<double>& nearest = ofThread.local();
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const Triangle& t = scene.triangles[i];
+      const Corners corners{scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]};
+      double& best = nearest[t.material];
+      const double slack = roundingOf(corners);
+      if (toBox(p, corners) - slack < best)
+        best = std::min(best, std::max(0.0, toTriangle(p, corners) - slack));
+    }
+  });
+  std::vector<double> nearest = none;
+  ofThread.combine_each([&](const std::vector<double>& part) {
+    for (std::size_t i = 0; i < part.size(); ++i) nearest[i] = std::min(nearest[i], part[i]);
+  });
+  return nearest;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> largestBiradiance(const Scene& scene) {
+  std::vector<glm::dvec3> sums(scene.materials.size(), glm::dvec3(0));
+  for (const Light& light : scene.lights) {
+    const glm::dvec3 intensity = glm::abs(glm::dvec3(light.intensity));
+    if (light.kind == LightKind::Directional) {
+      for (auto& sum : sums) sum += intensity;
+      continue;
+    }
+    const std::vector<double> nearest = nearestHits(scene, light.position);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      if (nearest[i] > static_cast<double>(light.range)) continue;
+      for (int c = 0; c < 3; ++c)
+        if (intensity[c] > 0) sums[i][c] += intensity[c] / (nearest[i] * nearest[i]);
+    }
+  }
+  return sums;
+}
+
+}  // namespace whittle

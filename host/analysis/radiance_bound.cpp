@@ -1,0 +1,194 @@
+// The bound, after host/reference/README.md. Let L(n) bound the radiance along a ray followed through n hits
+// more: L(0) = 0, and L(n + 1) is the largest of the background and, over materials, of what a surface sends
+// back when L(n) arrives along its impulses:
+//
+//   a [emission + direct + (magnitudes of its impulses) L(n)] + (1 − a) L(n)
+//
+// A surface shares one unit of light between what it scatters and its impulses, so the terms do not add up:
+// the expression is linear in each of coverage a, metallic m, transmission τ and the Fresnel reflectance F,
+// so that its maximum is at an end of each one's range. Only what emits, or is rough and transparent, adds to
+// what arrives; a hall of mirrors does not grow with the bounces. Direct light is at most f · cos ·
+// biradiance with no shadow: for Lambert's part c/π, for the microfacet lobe see largestLobe.
+//
+// An impulse of throughput T that is cut off at the hit of bounce b takes at most T · L(bounces − b) from its
+// sample; these are added up over the picture. Absorption only takes away. Samples that are not finite are
+// not meant.
+#include "analysis/radiance_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <numbers>
+
+#include "analysis/largest_biradiance.h"
+#include "kernels/shared/layout.h"
+
+namespace whittle {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Shares of single precision may sum to a little more than 1 at each hit.
+constexpr double kRounding = 1 + 1e-5;
+
+/// 0 · ∞ = 0: light that does not count need not be bounded.
+double times(double share, double radiance) { return share == 0 ? 0 : share * radiance; }
+
+/// The ends of a factor's range: a texture may scale it down to 0.
+struct Range {
+  double low, high;
+};
+Range rangeOf(float factor, bool textured) {
+  const double high = std::clamp(static_cast<double>(factor), 0.0, 1.0);
+  return {textured ? 0 : high, high};
+}
+
+/// Upper bounds on what a material does anywhere on it.
+struct Surface {
+  glm::dvec3 own{0};        ///< radiance that it gives off by itself
+  glm::dvec3 color{0};      ///< of its metal and of what it lets through
+  glm::dvec3 matte{0};      ///< direct light that Lambert's part would return, were it all
+  glm::dvec3 highlight{0};  ///< the same for the microfacet lobe
+  Range metallic{0, 0}, transmission{0, 0};
+  double specular = 0;
+  bool smooth = false, rough = false, volume = false, blends = false;
+};
+
+/// D V cos for microfacets of at least this alpha. D = α²/(π ((n·h)²(α² − 1) + 1)²) is largest at n·h = 1,
+/// which single precision exceeds by up to 3e-7; V cosᵢ <= ½ / sqrt(α² + (1 − α²) cos²ₒ) <= ½/α.
+double largestLobe(double alpha) {
+  const double a2 = alpha * alpha, least = a2 - 7e-7;
+  return a2 / (std::numbers::pi * least * least) * 0.5 / alpha;
+}
+
+bool isUsual(const Material& m, const glm::dvec3& color) {
+  const auto isShare = [](float v) { return v >= 0.0F && v <= 1.0F; };
+  const auto isPositive = [](const glm::dvec3& v) {
+    return v.x >= 0 && v.y >= 0 && v.z >= 0 && std::isfinite(v.x + v.y + v.z);
+  };
+  return isShare(m.transmission) && isShare(m.specular) && isPositive(color) && isPositive(m.emission) &&
+         isPositive(m.specularColor);
+}
+
+/// vertexColor: the largest of the scene. biradiance: of all lights on this material.
+Surface surfaceOf(const Material& m, double mirrorRoughness, const glm::dvec3& vertexColor,
+                  const glm::dvec3& biradiance) {
+  Surface s;
+  s.color = glm::dvec3(m.baseColor) * vertexColor;
+  s.blends = m.alphaMode == AlphaMode::Blend;
+  s.own = m.unlit ? s.color : glm::dvec3(m.emission);
+  if (!isUsual(m, s.color)) s.own = glm::dvec3(kInfinity);
+  if (m.unlit) return s;
+  const bool textured = m.metallicRoughnessTexture.used();
+  const Range roughness = rangeOf(m.roughness, textured);
+  s.smooth = roughness.low < mirrorRoughness;
+  s.rough = !(roughness.high < mirrorRoughness);
+  s.metallic = rangeOf(m.metallic, textured);
+  s.transmission = rangeOf(m.transmission, m.transmissionTexture.used());
+  s.specular = m.specular;
+  s.volume = m.volume;
+  const double least = std::max(roughness.low, s.smooth ? mirrorRoughness : 0.0);
+  const double lobe = largestLobe(std::max(least * least, 1e-3));
+  for (int c = 0; c < 3; ++c) {
+    s.matte[c] = times(s.color[c] / std::numbers::pi, biradiance[c]);
+    s.highlight[c] = times(lobe, biradiance[c]);
+  }
+  return s;
+}
+
+/// What channel c of a dielectric (metallic 0) or a metal (1) of transmission `tau` sends back when L
+/// arrives.
+double returnedBySmooth(const Surface& s, int c, double metallic, double tau, double L) {
+  const double dielectric = std::max(L, times(1 - tau, s.matte[c]) + times(tau * s.color[c], L));
+  return times(1 - metallic, dielectric) + times(metallic * std::max(1.0, s.color[c]), L);
+}
+
+/// A rough one lets light through, and reflects what is totally reflected inside a solid.
+double returnedByRough(const Surface& s, int c, double metallic, double tau, double L) {
+  const bool reflects = s.volume && tau > 0;
+  const double matte = times(1 - tau, s.matte[c]);
+  const double scattered = std::max(matte, times(1 - s.specular, matte) + times(s.specular, s.highlight[c]));
+  const double through = times(std::max(tau * s.color[c], reflects ? 1.0 : 0.0), L);
+  const double metal = std::max(1.0, s.color[c]) * (s.highlight[c] + (reflects ? L : 0));
+  return times(1 - metallic, scattered + through) + times(metallic, metal);
+}
+
+double returned(const Surface& s, int c, double L) {
+  double most = 0;
+  for (const double metallic : {s.metallic.low, s.metallic.high})
+    for (const double tau : {s.transmission.low, s.transmission.high}) {
+      if (s.smooth) most = std::max(most, returnedBySmooth(s, c, metallic, tau, L));
+      if (s.rough) most = std::max(most, returnedByRough(s, c, metallic, tau, L));
+    }
+  const double radiance = s.own[c] + most;
+  return s.blends ? std::max(radiance, L) : radiance;
+}
+
+/// All materials that some triangle has.
+std::vector<Surface> surfacesOf(const Scene& scene, double mirrorRoughness) {
+  glm::dvec3 vertexColor(1), least(0);
+  for (const glm::vec4& color : scene.colors) {
+    vertexColor = glm::max(vertexColor, glm::dvec3(color));
+    least = glm::min(least, glm::dvec3(color));
+  }
+  if (least != glm::dvec3(0)) vertexColor = least;  // not usual
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const Triangle& t : scene.triangles) used[t.material] = true;
+  const std::vector<glm::dvec3> biradiance = largestBiradiance(scene);
+  std::vector<Surface> surfaces;
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    if (used[i])
+      surfaces.push_back(surfaceOf(scene.materials[i], mirrorRoughness, vertexColor, biradiance[i]));
+  return surfaces;
+}
+
+glm::dvec3 largestBackground(const Background& background) {
+  glm::dvec3 largest(background.map.empty() ? 1.0 : 0.0);
+  for (std::size_t i = 0; i < background.map.size(); ++i) {
+    double& channel = largest[static_cast<int>(i % 3)];
+    channel = std::max(channel, static_cast<double>(background.map[i]));
+  }
+  return largest * glm::dvec3(background.radiance);
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> radianceBounds(const Scene& scene, const Settings& settings, int hits) {
+  const std::vector<Surface> surfaces = surfacesOf(scene, static_cast<double>(settings.mirrorRoughness));
+  const glm::dvec3 background = largestBackground(scene.background);
+  std::vector<glm::dvec3> bounds{glm::dvec3(0)};
+  for (int n = 1; n <= hits; ++n) {
+    glm::dvec3 most = background;
+    for (const Surface& s : surfaces)
+      for (int c = 0; c < 3; ++c) most[c] = std::max(most[c], returned(s, c, bounds.back()[c]));
+    bounds.push_back(most * kRounding);
+  }
+  return bounds;
+}
+
+double meanRadiance(const FloatImage& radiance) {
+  glm::dvec3 sum(0);
+  for (std::size_t i = 0; i + 2 < radiance.pixels.size(); i += 3)
+    sum += glm::dvec3(radiance.pixels[i], radiance.pixels[i + 1], radiance.pixels[i + 2]);
+  return std::max(sum.x, std::max(sum.y, sum.z)) / static_cast<double>(radiance.pixels.size() / 3);
+}
+
+double cutOffThroughput(const Settings& settings, const std::vector<std::uint64_t>& cutOff) {
+  double units = 0;
+  for (const std::uint64_t u : cutOff) units += static_cast<double>(u);
+  return units * static_cast<double>(settings.cutoff) / CUTOFF_UNITS;
+}
+
+double biasBound(const Scene& scene, const Settings& settings, const std::vector<double>& cutOffPerSample) {
+  if (std::all_of(cutOffPerSample.begin(), cutOffPerSample.end(), [](double units) { return units == 0.0; }))
+    return 0;
+  const std::vector<glm::dvec3> bounds = radianceBounds(scene, settings, settings.bounces);
+  const double unit = static_cast<double>(settings.cutoff) / CUTOFF_UNITS;
+  glm::dvec3 lost(0);
+  for (std::size_t i = 0; i < cutOffPerSample.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      lost[c] += times(cutOffPerSample[i] * unit, bounds[cutOffPerSample.size() - 1 - i][c]);
+  return std::max(lost.x, std::max(lost.y, lost.z));
+}
+
+}  // namespace whittle

@@ -1,0 +1,247 @@
+// The analysis behind SceneFeatures: one line for each feature, with the reason a person is given where it is
+// left out.
+#include "analysis/scene_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "analysis/feature_needs.h"
+#include "analysis/material_use.h"
+
+namespace whittle {
+namespace {
+
+/// The scene seen through the questions that features ask.
+class Needs {
+ public:
+  Needs(const Scene& ofScene, const SceneUse& ofUse, const Settings& withSettings,
+        const DeviceTraits& onDevice)
+      : scene(ofScene), use(ofUse), settings(withSettings), traits(onDevice) {}
+
+  const Scene& scene;
+  const SceneUse& use;  ///< what goes to the device
+  const Settings& settings;
+  const DeviceTraits& traits;
+
+  bool anyMaterial(const std::function<bool(const Material&)>& wanted) const {
+    return std::any_of(use.materials.begin(), use.materials.end(), wanted);
+  }
+  bool anyLight(const std::function<bool(const Light&)>& wanted) const {
+    return std::any_of(use.lights.begin(), use.lights.end(),
+                       [&](std::uint32_t i) { return wanted(scene.lights[i]); });
+  }
+  bool anySlot(const std::function<bool(const TextureSlot&)>& wanted) const {
+    return anyMaterial([&](const Material& m) {
+      const auto slots = readSlots(m);
+      return std::any_of(slots.begin(), slots.end(),
+                         [&](const TextureSlot* s) { return s->used() && wanted(*s); });
+    });
+  }
+
+  bool smooth(const Material& m) const {
+    return !m.unlit && (m.metallicRoughnessTexture.used() || m.roughness < settings.mirrorRoughness);
+  }
+  bool rough(const Material& m) const {
+    return !m.unlit && (m.metallicRoughnessTexture.used() ? m.roughness >= settings.mirrorRoughness
+                                                          : !(m.roughness < settings.mirrorRoughness));
+  }
+  static bool transmits(const Material& m) { return !m.unlit && m.transmission > 0.0F; }
+  static bool refracts(const Material& m) { return transmits(m) && m.volume; }
+  static bool blends(const Material& m) { return m.alphaMode == AlphaMode::Blend; }
+  bool reflects(const Material& m) const {
+    return smooth(m) && (m.metallic > 0.0F || (m.specular > 0.0F && m.ior != 1.0F));
+  }
+
+  bool lit() const { return !use.lights.empty(); }
+  bool mirrors() const {
+    return anyMaterial([this](const Material& m) { return reflects(m); });
+  }
+  bool impulses() const {
+    return settings.bounces > 1 && (mirrors() || anyMaterial(transmits) || anyMaterial(blends));
+  }
+  bool shadows() const {
+    return settings.shadows && lit() && anyLight([](const Light& l) { return l.castsShadows; });
+  }
+  bool twoImpulses() const {
+    return impulses() && settings.impulses == ImpulseMode::All && anyMaterial([this](const Material& m) {
+             return (transmits(m) && (reflects(m) || m.volume)) || (blends(m) && reflects(m));
+           });
+  }
+  bool tree() const {
+    if (settings.search != Search::Auto) return settings.search == Search::Tree;
+    return scene.triangles.size() >= kArrayBelowTriangles;
+  }
+  bool packets() const {
+    return settings.lanes == Lanes::Sixteen || (settings.lanes == Lanes::Auto && traits.packets);
+  }
+};
+
+struct Question {
+  Feature feature;
+  bool used;
+  const char* reason;
+  bool settingDecides = false;  ///< --keep-all-features leaves it as it is
+};
+
+std::vector<Question> geometryQuestions(const Needs& n) {
+  using F = Feature;
+  return {
+      {F::PACKETS, n.packets(), "the device traces one ray for each work item", true},
+      {F::TREE, n.tree(), "so few triangles are searched one by one", true},
+      {F::VERTEX_NORMALS, !n.scene.normals.empty(), "no mesh has vertex normals"},
+      {F::VERTEX_COLORS, !n.scene.colors.empty(), "no mesh has vertex colours"},
+      {F::TEXTURES, n.anySlot([](const TextureSlot&) { return true; }), "no material has a texture"},
+      {F::UV0, n.anySlot([](const TextureSlot& s) { return s.uvSet == 0; }) && !n.scene.uv0.empty(),
+       "no texture reads the first UV set"},
+      {F::UV1, n.anySlot([](const TextureSlot& s) { return s.uvSet != 0; }) && !n.scene.uv1.empty(),
+       "no texture reads a second UV set"},
+      {F::NEAREST_FILTER, n.anySlot([](const TextureSlot& s) { return s.filter == Filter::Nearest; }),
+       "every texture is filtered"},
+      {F::BASE_COLOR_TEXTURE, n.anyMaterial([](const Material& m) { return m.baseColorTexture.used(); }),
+       "no base colour texture"},
+      {F::METALLIC_ROUGHNESS_TEXTURE,
+       n.anyMaterial([](const Material& m) { return m.metallicRoughnessTexture.used(); }),
+       "no metallic-roughness texture"},
+      {F::NORMAL_TEXTURE, n.anyMaterial([](const Material& m) { return m.normalTexture.used(); }),
+       "no normal map"},
+      {F::EMISSION_TEXTURE, n.anyMaterial([](const Material& m) { return m.emissionTexture.used(); }),
+       "no emission texture"},
+      {F::SPECULAR_TEXTURE, n.anyMaterial([](const Material& m) { return m.specularTexture.used(); }),
+       "no specular texture"},
+      {F::SPECULAR_COLOR_TEXTURE,
+       n.anyMaterial([](const Material& m) { return m.specularColorTexture.used(); }),
+       "no specular colour texture"},
+      {F::TRANSMISSION_TEXTURE, n.anyMaterial([](const Material& m) { return m.transmissionTexture.used(); }),
+       "no transmission texture"},
+  };
+}
+
+std::vector<Question> lightQuestions(const Needs& n) {
+  using F = Feature;
+  const auto kind = [&](LightKind k) { return n.anyLight([k](const Light& l) { return l.kind == k; }); };
+  const bool filters = n.anyMaterial(Needs::transmits) || n.anyMaterial(Needs::blends);
+  const glm::vec3 b = n.scene.background.radiance;
+  return {
+      {F::LIGHTS, n.lit(),
+       n.scene.lights.empty() ? "the scene has no lights" : "no light of the scene reaches anything"},
+      {F::SHADOWS, n.shadows(), n.settings.shadows ? "no light casts shadows" : "shadows are switched off",
+       !n.settings.shadows},
+      {F::FILTERED_SHADOWS, n.shadows() && filters, "no surface that casts a shadow lets light through"},
+      {F::POINT_LIGHTS, kind(LightKind::Point), "no point light"},
+      {F::DIRECTIONAL_LIGHTS, kind(LightKind::Directional), "no directional light"},
+      {F::SPOT_LIGHTS, kind(LightKind::Spot), "no spot light"},
+      {F::LIGHT_RANGE, n.anyLight([](const Light& l) { return std::isfinite(l.range); }),
+       "no light has a range"},
+      {F::MICROFACET, n.lit() && n.anyMaterial([&](const Material& m) {
+         return n.rough(m) && (m.specular > 0.0F || m.metallic > 0.0F);
+       }),
+       "no rough surface shows a highlight"},
+      {F::EMISSION,
+       n.anyMaterial([](const Material& m) { return !m.unlit && m.emission != glm::vec3(0.0F); }),
+       "no material emits"},
+      {F::UNLIT, n.anyMaterial([](const Material& m) { return m.unlit; }), "no material is unlit"},
+      {F::BACKGROUND, b.r > 0.0F || b.g > 0.0F || b.b > 0.0F, "the background is black"},
+      {F::BACKGROUND_MAP, !n.scene.background.map.empty(), "the background is one colour"},
+  };
+}
+
+std::vector<Question> impulseQuestions(const Needs& n) {
+  using F = Feature;
+  const bool some = n.impulses();
+  const char* const none = n.settings.bounces <= 1 ? "one bounce sends out no impulses"
+                                                   : "no material is smooth, transmits or blends";
+  return {
+      {F::IMPULSES, some, none, n.settings.bounces <= 1},
+      {F::METAL, n.anyMaterial([](const Material& m) { return m.metallic > 0.0F; }),
+       "no material is metallic"},
+      {F::MIRROR, some && n.mirrors(), some ? "no smooth material reflects" : none},
+      {F::TRANSMISSION, n.anyMaterial(Needs::transmits), "no material transmits"},
+      {F::REFRACTION, some && n.anyMaterial(Needs::refracts), "no transmitting material bounds a volume"},
+      {F::ABSORPTION,
+       n.anyMaterial([](const Material& m) { return m.volume && m.sigma_a != glm::vec3(0.0F); }),
+       "no volume absorbs"},
+      {F::ALPHA_MASK, n.anyMaterial([](const Material& m) { return m.alphaMode == AlphaMode::Mask; }),
+       n.use.trimmed.needlessMasks > 0 ? "masks cut nothing out" : "no material is masked"},
+      {F::ALPHA_BLEND, n.anyMaterial(Needs::blends),
+       n.use.trimmed.needlessBlends > 0 ? "blended materials are opaque" : "no material is blended"},
+      {F::SPECULAR_EXTENSION, n.anyMaterial([](const Material& m) {
+         return m.specular != 1.0F || m.specularColor != glm::vec3(1.0F) || m.specularTexture.used() ||
+                m.specularColorTexture.used();
+       }),
+       "no material changes its specular strength or colour"},
+      {F::BOTH_BRANCHES, n.twoImpulses(),
+       n.settings.impulses == ImpulseMode::One ? "one impulse is chosen at random"
+                                               : "no surface sends out two impulses",
+       n.settings.impulses == ImpulseMode::One},
+      {F::CUTOFF, some && n.settings.cutoff > 0.0F,
+       n.settings.cutoff > 0.0F ? none : "no cut-off was asked for", true},
+      {F::ONE_IMPULSE, some && n.settings.impulses == ImpulseMode::One, "both branches are followed", true},
+  };
+}
+
+std::vector<Question> cameraQuestions(const Needs& n) {
+  using F = Feature;
+  const bool many = n.settings.raysPerPixel > 1;
+  const auto sampler = [&](Sampler s) { return many && n.settings.sampler == s; };
+  const char* const one = many ? "another sampler was chosen" : "one ray goes through the pixel's centre";
+  return {
+      {F::ORTHOGRAPHIC,
+       std::any_of(n.scene.cameras.begin(), n.scene.cameras.end(),
+                   [](const Camera& c) { return c.orthographic; }),
+       "no camera is orthographic"},
+      {F::SAMPLER_RANDOM, sampler(Sampler::Random), one},
+      {F::SAMPLER_STRATIFIED, sampler(Sampler::Stratified), one},
+      {F::SAMPLER_SOBOL, sampler(Sampler::Sobol), one},
+      {F::FIXED_BUMP, n.settings.bump.has_value(), "the bump is derived at each hit"},
+      {F::AOVS, n.settings.aovs, "no auxiliary output was asked for", true},
+  };
+}
+
+}  // namespace
+
+const char* featureText(Feature feature) {
+  switch (feature) {
+#define WHITTLE_TEXT(name, bit, words) \
+  case Feature::name:                  \
+    return words;
+    WHITTLE_FEATURES(WHITTLE_TEXT)
+#undef WHITTLE_TEXT
+  }
+  return "";
+}
+
+const std::vector<Feature>& allFeatures() {
+#define WHITTLE_LISTED(name, bit, words) Feature::name,
+  static const std::vector<Feature> all{WHITTLE_FEATURES(WHITTLE_LISTED)};
+#undef WHITTLE_LISTED
+  return all;
+}
+
+SceneFeatures SceneFeatures::analyse(const Scene& scene, const SceneUse& use, const Settings& settings,
+                                     const DeviceTraits& traits) {
+  const Needs needs(scene, use, settings, traits);
+  std::vector<Question> questions;
+  for (auto part :
+       {geometryQuestions(needs), lightQuestions(needs), impulseQuestions(needs), cameraQuestions(needs)})
+    questions.insert(questions.end(), part.begin(), part.end());
+
+  const auto bitOf = [](const Question& q) { return std::uint64_t{1} << static_cast<int>(q.feature); };
+  SceneFeatures features;
+  for (const auto& q : questions)
+    if (q.used || (settings.keepAllFeatures && !q.settingDecides)) features.bits_ |= bitOf(q);
+  const KeptFeatures kept = keptFeatures(settings, features.bits_);
+  features.bits_ |= kept.bits;
+  for (const auto& q : questions) {
+    const bool used = features.bits_ & bitOf(q);
+    const auto neededBy = kept.neededBy.find(q.feature);
+    features.lines_.push_back({q.feature, featureText(q.feature), used, used ? "" : q.reason, used && !q.used,
+                               neededBy == kept.neededBy.end() ? "" : featureText(neededBy->second)});
+  }
+  std::sort(features.lines_.begin(), features.lines_.end(), [](const FeatureLine& a, const FeatureLine& b) {
+    return static_cast<int>(a.feature) < static_cast<int>(b.feature);
+  });
+  return features;
+}
+
+}  // namespace whittle

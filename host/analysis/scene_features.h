@@ -1,0 +1,73 @@
+// What a scene with these settings needs, decided in one place: drives the kernels compiled, the stages
+// launched and the buffers allocated, and is what `whittle info` prints.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "analysis/scene_use.h"
+#include "kernels/shared/features.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace whittle {
+
+/// The bit numbers of kernels/shared/features.h.
+enum class Feature : int {
+#define WHITTLE_ENUM(name, bit, text) name = bit,
+  WHITTLE_FEATURES(WHITTLE_ENUM)
+#undef WHITTLE_ENUM
+};
+
+/// What a person calls it.
+const char* featureText(Feature feature);
+/// In the order of their bits.
+const std::vector<Feature>& allFeatures();
+
+/// What only the device decides.
+struct DeviceTraits {
+  bool packets = true;  ///< packets of sixteen suit its vector units
+};
+
+struct FeatureLine {
+  Feature feature;
+  std::string text;  ///< what a person calls it
+  bool used = false;
+  std::string reason;    ///< why it is left out, or empty
+  bool kept = false;     ///< used only because it was asked for, or because one that was needs it
+  std::string neededBy;  ///< that one, or empty
+};
+
+class SceneFeatures {
+ public:
+  SceneFeatures() = default;
+
+  bool has(Feature feature) const { return (bits_ >> static_cast<int>(feature)) & 1U; }
+  std::uint64_t bits() const { return bits_; }
+  const std::vector<FeatureLine>& lines() const { return lines_; }
+
+  /// Exactly these; no lines.
+  static SceneFeatures ofBits(std::uint64_t bits) {
+    SceneFeatures features;
+    features.bits_ = bits;
+    return features;
+  }
+  /// Derives the features of what goes to the device. settings.keepAllFeatures switches everything on that
+  /// does not contradict the settings, settings.keepFeatures these and what they need (feature_needs.h).
+  static SceneFeatures analyse(const Scene& scene, const SceneUse& use, const Settings& settings,
+                               const DeviceTraits& traits);
+  /// The same where nothing else asks what goes to the device.
+  static SceneFeatures analyse(const Scene& scene, const Settings& settings, const DeviceTraits& traits) {
+    return analyse(scene, useOf(scene, settings), settings, traits);
+  }
+
+ private:
+  std::uint64_t bits_ = 0;
+  std::vector<FeatureLine> lines_;
+};
+
+/// Below this many triangles `--search auto` takes the array: measured crossing, see experiments/.
+inline constexpr std::size_t kArrayBelowTriangles = 12;
+
+}  // namespace whittle

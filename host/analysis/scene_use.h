@@ -1,0 +1,40 @@
+// What of a scene goes to the device, decided once for each render: the features, the upload and
+// `whittle info` all read it. Nothing that is left out changes a bit of the picture.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analysis/trimmed.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace whittle {
+
+/// Vertices whose indices fit 16 bits.
+inline constexpr std::size_t kNarrowVertices = 1 << 16;
+
+/// In a table: it does not go to the device.
+inline constexpr std::uint32_t kNotUsed = 0xffffffffU;
+
+/// Tables from the scene to the device.
+struct SceneUse {
+  std::vector<Material> materials;  ///< as the device gets them; their slots' `image` counts in `images`
+  std::vector<std::uint32_t> materialOf;  ///< [Scene::materials] index into `materials`, or kNotUsed
+  std::vector<std::uint32_t> images;      ///< indices into Scene::images
+  std::vector<std::uint32_t> lights;      ///< indices into Scene::lights, in the scene's order
+  /// [vertices] index into the device's arrays of attributes, or kNotUsed; empty: all of them go as they are.
+  std::vector<std::uint32_t> vertexOf;
+  std::size_t vertexCount = 0;  ///< on the device
+  bool narrowCorners = false;   ///< triangles name their vertices by 16 bits each, not by 32
+  bool sharesSlots = false;     ///< identical texture slots are stored once
+  Trimmed trimmed;
+};
+
+/// The whole scene, nothing left out.
+SceneUse wholeScene(const Scene& scene);
+
+/// Only what the picture needs; wholeScene with settings.keepAllFeatures. Linear in the scene's size.
+SceneUse useOf(const Scene& scene, const Settings& settings);
+
+}  // namespace whittle

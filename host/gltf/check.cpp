@@ -1,0 +1,218 @@
+// See gltf_check.h. The tables at the top follow the JSON schemas of glTF 2.0 and of the extensions that are
+// read.
+#include "gltf/check.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+#include "gltf/shapes.h"
+
+namespace whittle::gltf {
+
+namespace {
+
+/// The way to a property, kept as a list on the stack: it becomes text only when something is wrong.
+struct Where {
+  const Where* parent = nullptr;
+  std::string_view key = {};
+  std::size_t element = kNone;
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+};
+
+std::string textOf(const Where& where) {
+  std::string text = where.parent ? textOf(*where.parent) : std::string();
+  if (where.element != Where::kNone) return text + fmt::format("[{}]", where.element);
+  if (!text.empty()) text += '.';
+  return text + std::string(where.key.substr(0, 60));
+}
+
+/// Largest integer that every JSON writer can express: offsets and counts above it are refused, so that sums
+/// and products of two of them by small strides never overflow 64 bits.
+constexpr double kLargestInteger = 9007199254740992.0;
+constexpr double kLargestIndex = 2147483647.0;
+
+/// "is 1 mesh", "are 2 meshes", "are no meshes".
+std::string someOf(std::size_t count, std::string_view plural) {
+  if (count != 1) return fmt::format("are {} {}", count == 0 ? "no" : std::to_string(count), plural);
+  return fmt::format("is 1 {}", plural.substr(0, plural.size() - (plural == "meshes" ? 2 : 1)));
+}
+
+class Checker {
+ public:
+  Checker(const Document& document, const Json& root) : document_(document) {
+    for (const Field& field : rootFields()) {
+      if (field.kind == Kind::Objects && root.contains(field.key))
+        counts_[field.key] = root[field.key].size();
+    }
+    const auto lights = Json::json_pointer("/extensions/KHR_lights_punctual/lights");
+    if (root.contains(lights)) counts_["lights"] = root[lights].size();
+  }
+
+  Json object(const Json& in, std::span<const Field> fields, const Where& where) const {
+    if (!in.is_object()) wrong(where, "must be an object");
+    Json out = Json::object();
+    for (const Field& field : fields) {
+      const auto found = in.find(field.key);
+      if (found == in.end() || found->is_null()) {
+        if (field.isRequired) wrong({&where, field.key}, "is missing");
+        continue;
+      }
+      out[field.key] = value(*found, field, {&where, field.key});
+    }
+    return out;
+  }
+
+ private:
+  [[noreturn]] void wrong(const Where& where, std::string_view what) const {
+    document_.fail(fmt::format("{} {}", textOf(where), what));
+  }
+
+  Json value(const Json& in, const Field& field, const Where& where) const {
+    switch (field.kind) {
+      case Kind::Index:
+        return indexValue(in, field, where);
+      case Kind::Size:
+        return integer(in, kLargestInteger, where);
+      case Kind::Number:
+        return numberValue(in, where);
+      case Kind::Flag:
+        if (!in.is_boolean()) wrong(where, "must be true or false");
+        return in;
+      case Kind::Text:
+        return textValue(in, where);
+      case Kind::Object:
+        return object(in, field.fields, where);
+      case Kind::Map:
+        return map(in, field, where);
+      case Kind::Raw:
+        return in;
+      default:
+        return array(in, field, where);
+    }
+  }
+
+  Json array(const Json& in, const Field& field, const Where& where) const {
+    if (!in.is_array()) wrong(where, "must be an array");
+    if (field.kind == Kind::Numbers && field.length > 0 && in.size() != field.length) {
+      wrong(where, fmt::format("must have {} numbers, but has {}", field.length, in.size()));
+    }
+    Json out = Json::array();
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      const Where element{&where, {}, i};
+      switch (field.kind) {
+        case Kind::Numbers:
+          out.push_back(numberValue(in[i], element));
+          break;
+        case Kind::Texts:
+          out.push_back(textValue(in[i], element));
+          break;
+        case Kind::Indices:
+          out.push_back(indexValue(in[i], field, element));
+          break;
+        case Kind::Maps:
+          out.push_back(map(in[i], field, element));
+          break;
+        default:
+          out.push_back(object(in[i], field.fields, element));
+          break;
+      }
+    }
+    return out;
+  }
+
+  Json map(const Json& in, const Field& field, const Where& where) const {
+    if (!in.is_object()) wrong(where, "must be an object");
+    Json out = Json::object();
+    for (const auto& [key, element] : in.items()) out[key] = indexValue(element, field, {&where, key});
+    return out;
+  }
+
+  Json textValue(const Json& in, const Where& where) const {
+    if (!in.is_string()) wrong(where, "must be a string");
+    return in;
+  }
+
+  Json numberValue(const Json& in, const Where& where) const {
+    if (!in.is_number()) wrong(where, "must be a number");
+    return in.get<double>();
+  }
+
+  Json integer(const Json& in, double largest, const Where& where) const {
+    if (!in.is_number()) wrong(where, "must be an integer");
+    const double number = in.get<double>();
+    if (number < 0.0) wrong(where, "must not be negative");
+    if (number > largest) wrong(where, "is too large");
+    if (std::floor(number) != number) wrong(where, "must be an integer");
+    return static_cast<std::uint64_t>(number);
+  }
+
+  Json indexValue(const Json& in, const Field& field, const Where& where) const {
+    const Json out = integer(in, kLargestIndex, where);
+    const auto number = out.get<std::uint64_t>();
+    if (field.target) {
+      const auto count = counts_.find(field.target);
+      const std::size_t size = count == counts_.end() ? 0 : count->second;
+      if (number >= size) {
+        wrong(where, fmt::format("is {}, but there {}", number, someOf(size, field.target)));
+      }
+    }
+    bool legal = field.oneOf.empty();
+    for (const int allowed : field.oneOf) legal = legal || number == static_cast<std::uint64_t>(allowed);
+    if (!legal) wrong(where, fmt::format("has the unknown value {}", number));
+    return out;
+  }
+
+  const Document& document_;
+  std::map<std::string_view, std::size_t> counts_;
+};
+
+void dropKeys(Json& json, std::span<const char* const> keys) {
+  if (json.is_object()) {
+    for (const char* key : keys) json.erase(key);
+  }
+  if (json.is_structured()) {
+    for (Json& element : json) dropKeys(element, keys);
+  }
+}
+
+}  // namespace
+
+Json checkedCopy(const Document& document, const Json& json) {
+  if (!json.is_object()) document.fail("not a glTF file: its JSON is not an object");
+  return Checker(document, json).object(json, rootFields(), {});
+}
+
+Json descriptionOnly(const Json& checked) {
+  Json out = checked;
+  out.erase("buffers");
+  out.erase("images");
+  static constexpr std::array<const char*, 2> kKeys{"extensions", "extras"};
+  dropKeys(out, kKeys);
+  return out;
+}
+
+bool nestsTooDeep(std::string_view json) {
+  constexpr int kDeepest = 200;
+  int depth = 0;
+  bool inText = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (inText) {
+      if (c == '\\') ++i;
+      if (c == '"') inText = false;
+    } else if (c == '"') {
+      inText = true;
+    } else if (c == '{' || c == '[') {
+      if (++depth > kDeepest) return true;
+    } else if (c == '}' || c == ']') {
+      --depth;
+    }
+  }
+  return false;
+}
+
+}  // namespace whittle::gltf

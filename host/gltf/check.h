@@ -1,0 +1,22 @@
+// The shape of a glTF file, checked before anything reads it: tinygltf and the rest of the loader then meet
+// only values of the right type, array lengths that the specification asks for, and indices that exist.
+#pragma once
+
+#include "gltf/document.h"
+
+namespace whittle::gltf {
+
+/// A copy of `json` with the properties that Whittle reads and no others. Throws InputError, naming the
+/// property, where one has the wrong type, is missing, or is an index that does not exist. `extras` are kept
+/// as they are.
+Json checkedCopy(const Document& document, const Json& json);
+
+/// The same without buffers, images, extensions and extras: what tinygltf gets to read. It would otherwise
+/// open every file, decode every image and read buffer views unchecked; numbers of extensions it would
+/// squeeze into an int.
+Json descriptionOnly(const Json& checked);
+
+/// True if brackets are nested deeper than any glTF needs: parsers and destructors recurse.
+bool nestsTooDeep(std::string_view text);
+
+}  // namespace whittle::gltf

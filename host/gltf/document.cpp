@@ -1,0 +1,231 @@
+// See gltf_document.h. Versions, extensions, tinygltf, and buffers, which are read on first use.
+#include "gltf/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "gltf/check.h"
+#include "gltf/container.h"
+#include "gltf/uri.h"
+#include "scene/input_error.h"
+
+namespace whittle::gltf {
+
+namespace {
+
+constexpr std::array<std::string_view, 10> kSupportedExtensions{
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_transmission",
+    "KHR_materials_unlit",     "KHR_materials_volume",   "KHR_mesh_quantization",
+    "KHR_texture_transform"};
+
+bool isSupported(std::string_view extensionName) {
+  return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), extensionName) !=
+         kSupportedExtensions.end();
+}
+
+/// One line of printable text: control characters and line ends become spaces.
+std::string oneLine(std::string_view text) {
+  std::string line(text);
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line;
+}
+
+/// Before anything else is checked: in glTF 1.0 nearly every property has another type.
+void checkVersion(const Document& document, const Json& json) {
+  if (!json.is_object() || !json.contains("asset")) return;  // checkedCopy says it better
+  for (const char* array : {"scenes", "nodes", "meshes", "accessors"}) {
+    if (json.contains(array) && json[array].is_object()) {
+      document.fail("is glTF 1.0; Whittle reads glTF 2.0 (convert the file first)");
+    }
+  }
+  for (const char* key : {"minVersion", "version"}) {
+    const auto found = json["asset"].is_object() ? json["asset"].find(key) : json["asset"].end();
+    if (found == json["asset"].end() || !found->is_string()) continue;
+    const auto version = found->get<std::string>();
+    const bool isTwo = version == "2" || version.starts_with("2.");
+    const bool tooNew = std::string_view(key) == "minVersion" && isTwo && version != "2.0" && version != "2";
+    if (!isTwo || tooNew) {
+      document.fail(fmt::format("asset.{} is{}; Whittle reads glTF 2.0 (convert the file first)", key,
+                                quotedName(version)));
+    }
+  }
+}
+
+std::string listOf(const Json& names, bool (*wanted)(std::string_view)) {
+  std::string list;
+  for (const Json& name : names) {
+    const auto text = name.get<std::string>();
+    if (!wanted(text)) continue;
+    if (!list.empty()) list += ", ";
+    list += text.substr(0, 60);
+    if (list.size() > 200) return list + ", …";
+  }
+  return list;
+}
+
+void checkExtensions(const Document& document, Notices& notices) {
+  const auto unsupported = [](std::string_view extensionName) { return !isSupported(extensionName); };
+  const std::string required = listOf(child(document.json, "extensionsRequired"), unsupported);
+  if (!required.empty()) {
+    document.fail(
+        fmt::format("needs {}, which Whittle does not read (extensionsRequired)", oneLine(required)));
+  }
+  const std::string used = listOf(child(document.json, "extensionsUsed"), unsupported);
+  if (!used.empty()) notices.note(fmt::format("extensions not read: {}", oneLine(used)));
+}
+
+/// tinygltf refuses index accessors without a buffer view, which are legal (zeros, or sparse values over
+/// zeros): while it reads, such accessors have a view of their own, behind all the others.
+std::string withStandInView(Json description) {
+  const std::size_t standIn = child(description, "bufferViews").size();
+  for (Json& accessor : description["accessors"]) {
+    if (!accessor.contains("bufferView")) accessor["bufferView"] = standIn;
+  }
+  description["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
+  return description.dump();
+}
+
+void removeStandInView(tinygltf::Model& model) {
+  model.bufferViews.pop_back();
+  const auto standIn = static_cast<int>(model.bufferViews.size());
+  for (tinygltf::Accessor& accessor : model.accessors) {
+    if (accessor.bufferView == standIn) accessor.bufferView = -1;
+  }
+}
+
+/// tinygltf adds a line for each level that fails, the innermost first.
+std::string firstSentence(const std::string& error) {
+  std::string line = oneLine(error.substr(0, error.find('\n')));
+  while (!line.empty() && (line.back() == '.' || line.back() == ' ')) line.pop_back();
+  return line;
+}
+
+void readDescription(Document& document) {
+  const std::string text = withStandInView(descriptionOnly(document.json));
+  if (text.size() > std::numeric_limits<unsigned int>::max()) document.fail("its JSON is larger than 4 GB");
+  tinygltf::TinyGLTF reader;
+  std::string error;
+  std::string warning;
+  if (!reader.LoadASCIIFromString(&document.model, &error, &warning, text.c_str(),
+                                  static_cast<unsigned int>(text.size()), "", tinygltf::NO_REQUIRE)) {
+    document.fail("its description is not valid glTF 2.0" +
+                  (error.empty() ? "" : ": " + firstSentence(error)));
+  }
+  removeStandInView(document.model);
+}
+
+void readFromUri(Document& document, int buffer, const std::string& uri, std::uint64_t length, Bytes& bytes) {
+  if (isDataUri(uri)) {
+    auto decoded = decodeDataUri(uri);
+    if (!decoded) document.fail(fmt::format("the data URI of buffer {} cannot be decoded", buffer));
+    bytes = std::move(*decoded);
+    return;
+  }
+  if (isAbsoluteUri(uri)) {
+    document.fail(fmt::format("buffer {} is at{}; Whittle reads local files only", buffer, quotedName(uri)));
+  }
+  constexpr std::uint64_t kPointerStart = 64;  // enough to tell a git-lfs pointer by
+  const auto problem = readStart(resolveUri(document.folder, uri), std::max(length, kPointerStart), bytes);
+  if (problem) document.fail(fmt::format("buffer {}: the file{} {}", buffer, quotedName(uri), *problem));
+  if (isLfsPointer(asText(bytes))) {
+    document.fail(fmt::format("buffer {}: the file{} is a git-lfs pointer, not the data (run git lfs pull)",
+                              buffer, quotedName(uri)));
+  }
+}
+
+}  // namespace
+
+void Document::fail(std::string_view what) const {
+  constexpr std::size_t kLongest = 390;  // bytes, so that a line stays a line on any terminal
+  std::string line = fmt::format("{}: {}", oneLine(name), oneLine(what));
+  if (line.size() > kLongest) {
+    std::size_t end = std::max(kLongest - 3, std::min(oneLine(name).size(), line.size()));
+    while (end > 0 && end < line.size() && (static_cast<unsigned char>(line[end]) & 0xC0U) == 0x80U) --end;
+    line = line.substr(0, end) + "…";
+  }
+  throw InputError(line);
+}
+
+void openDocument(Document& document, const std::filesystem::path& path, Notices& notices) {
+  document.name = path.string();
+  document.folder = path.parent_path();
+  const auto problem = readStart(path, std::numeric_limits<std::uint64_t>::max(), document.file);
+  if (problem) document.fail(*problem);
+  const Json json = readContainer(document);
+  checkVersion(document, json);
+  document.json = checkedCopy(document, json);
+  checkExtensions(document, notices);
+  const auto animations = json.find("animations");
+  if (animations != json.end() && animations->is_array() && !animations->empty()) {
+    notices.note("animations are not played: the rest pose is shown");
+  }
+  readDescription(document);
+  document.bufferBytes.resize(child(document.json, "buffers").size());
+  document.bufferRead.resize(document.bufferBytes.size());
+}
+
+std::span<const std::byte> bufferData(Document& document, int buffer) {
+  const auto i = static_cast<std::size_t>(buffer);
+  const Json& description = document.json["buffers"][i];
+  const auto length = description["byteLength"].get<std::uint64_t>();
+  std::span<const std::byte> data;
+  if (!description.contains("uri")) {
+    if (buffer != 0 || !document.hasBinary) document.fail(fmt::format("buffer {} has no data", buffer));
+    data = document.binary;
+  } else {
+    if (!document.bufferRead[i]) {
+      readFromUri(document, buffer, description["uri"].get_ref<const std::string&>(), length,
+                  document.bufferBytes[i]);
+      document.bufferRead[i] = true;
+    }
+    data = document.bufferBytes[i];
+  }
+  if (data.size() < length) {
+    document.fail(fmt::format("buffer {} is too short: {} bytes of {}", buffer, data.size(), length));
+  }
+  return data.first(static_cast<std::size_t>(length));
+}
+
+std::span<const std::byte> viewData(Document& document, int view) {
+  const tinygltf::BufferView& v = document.model.bufferViews[static_cast<std::size_t>(view)];
+  const auto data = bufferData(document, v.buffer);
+  if (v.byteOffset > data.size() || v.byteLength > data.size() - v.byteOffset) {
+    document.fail(fmt::format("bufferViews[{}] reaches beyond buffer {}", view, v.buffer));
+  }
+  return data.subspan(v.byteOffset, v.byteLength);
+}
+
+const Json& child(const Json& object, const char* key) {
+  static const Json kNothing = Json::object();
+  const auto found = object.find(key);
+  return found == object.end() ? kNothing : *found;
+}
+
+const Json* extension(const Json& object, const char* name) {
+  const Json& extensions = child(object, "extensions");
+  const auto found = extensions.find(name);
+  return found == extensions.end() ? nullptr : &*found;
+}
+
+double number(const Json& object, const char* key, double fallback) {
+  const auto found = object.find(key);
+  return found == object.end() ? fallback : found->get<double>();
+}
+
+std::string quotedName(std::string_view name) {
+  if (name.empty()) return {};
+  constexpr std::size_t kLongest = 80;
+  std::size_t end = std::min(name.size(), kLongest);
+  while (end < name.size() && end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
+  return fmt::format(" \"{}{}\"", oneLine(name.substr(0, end)), end < name.size() ? "…" : "");
+}
+
+}  // namespace whittle::gltf

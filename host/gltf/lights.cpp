@@ -1,0 +1,162 @@
+// See gltf_lights.h. Cameras: glTF 2.0, 3.10; lights: KHR_lights_punctual. Both look along the node's -Z, and
+// the node's scale changes neither.
+#include "gltf/lights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace whittle::gltf {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+bool isFinite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && glm::length(v) < 1e30;
+}
+
+/// Unit length; nothing for a zero or non-finite vector.
+std::optional<glm::dvec3> unit(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
+  return v / length;
+}
+
+/// Position and axes of a camera node: scale and shear are left out, right-handed even below a mirror.
+bool placeCamera(const glm::dmat4& toWorld, Camera& camera) {
+  const auto forward = unit(-glm::dvec3(toWorld[2]));
+  if (!forward || !isFinite(toWorld[3])) return false;
+  const glm::dvec3 y(toWorld[1]);
+  const auto up = unit(y - *forward * glm::dot(y, *forward));
+  if (!up) return false;
+  camera.position = glm::vec3(glm::dvec3(toWorld[3]));
+  camera.forward = glm::vec3(*forward);
+  camera.up = glm::vec3(*up);
+  camera.right = glm::vec3(glm::cross(*forward, *up));
+  return true;
+}
+
+/// False if the lens cannot be used.
+bool readLens(const tinygltf::Camera& lens, Camera& camera) {
+  camera.orthographic = lens.type == "orthographic";
+  if (camera.orthographic) {
+    camera.ymag = static_cast<float>(std::abs(lens.orthographic.ymag));
+    return camera.ymag > 0.0F && std::isfinite(camera.ymag);
+  }
+  camera.yfov = static_cast<float>(lens.perspective.yfov);
+  return camera.yfov > 0.0F && lens.perspective.yfov < std::numbers::pi;
+}
+
+bool castsShadows(const Json& extras) {
+  if (!extras.is_object()) return true;
+  const auto found = extras.find("castsShadows");
+  return found == extras.end() || !found->is_boolean() || found->get<bool>();
+}
+
+void readCone(const Json& light, const std::string& label, Light& out, Notices& notices) {
+  const Json& spot = child(light, "spot");
+  const double outer = number(spot, "outerConeAngle", std::numbers::pi / 4);
+  const double inner = number(spot, "innerConeAngle", 0.0);
+  out.outerConeAngle = static_cast<float>(std::clamp(outer, 0.0, std::numbers::pi / 2));
+  out.innerConeAngle = static_cast<float>(std::clamp(inner, 0.0, static_cast<double>(out.outerConeAngle)));
+  if (!(inner >= 0.0 && inner <= outer && outer <= std::numbers::pi / 2 + 1e-6)) {
+    notices.warn(fmt::format("{}: cone angles outside 0 ≤ inner ≤ outer ≤ 90°; brought inside", label));
+  }
+}
+
+std::optional<LightKind> kindOf(const std::string& type) {
+  if (type == "point") return LightKind::Point;
+  if (type == "directional") return LightKind::Directional;
+  if (type == "spot") return LightKind::Spot;
+  return std::nullopt;
+}
+
+/// Everything of a light but its place; nothing if it cannot be used.
+std::optional<Light> readLight(const Json& json, std::size_t index, Notices& notices) {
+  Light light;
+  light.name = json.value("name", "");
+  const std::string label = fmt::format("light {}{}", index, quotedName(light.name));
+  const auto type = json["type"].get<std::string>();
+  const auto kind = kindOf(type);
+  if (!kind) {
+    notices.warn(fmt::format("{}: unknown type{}; the light is left out", label, quotedName(type)));
+    return std::nullopt;
+  }
+  light.kind = *kind;
+  const double intensity = number(json, "intensity", 1.0);
+  const Json& color = child(json, "color");
+  for (int i = 0; i < 3; ++i) {
+    light.intensity[i] =
+        static_cast<float>(intensity * (color.size() == 3 ? color[at(i)].get<double>() : 1.0));
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (light.intensity[i] >= 0.0F && std::isfinite(light.intensity[i])) continue;
+    notices.warn(
+        fmt::format("{}: its intensity is {}; the light is left out", label,
+                    light.intensity[i] > 0.0F ? "beyond 3.4e38, the most that a float holds" : "negative"));
+    return std::nullopt;
+  }
+  if (json.contains("range")) {
+    const auto range = static_cast<float>(number(json, "range", 0.0));
+    if (range > 0.0F)
+      light.range = range;
+    else
+      notices.warn(fmt::format("{}: its range must be positive; it reaches everywhere", label));
+  }
+  if (light.kind == LightKind::Spot) readCone(json, label, light, notices);
+  light.castsShadows = castsShadows(child(json, "extras"));
+  return light;
+}
+
+}  // namespace
+
+void readCameras(const Document& document, const Hierarchy& hierarchy, Scene& scene, Notices& notices) {
+  std::vector<std::pair<int, Camera>> found;
+  for (const int node : hierarchy.shown) {
+    const int index = document.model.nodes[at(node)].camera;
+    if (index < 0) continue;
+    Camera camera;
+    const tinygltf::Camera& lens = document.model.cameras[at(index)];
+    if (!readLens(lens, camera) || !placeCamera(hierarchy.toWorld[at(node)], camera)) {
+      notices.warn(
+          fmt::format("camera {} at {} has a lens or a transform that cannot be used; it is left out", index,
+                      nodeLabel(document, node)));
+      continue;
+    }
+    camera.name = lens.name.empty() ? document.model.nodes[at(node)].name : lens.name;
+    found.emplace_back(index, std::move(camera));
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (auto& [index, camera] : found) scene.cameras.push_back(std::move(camera));
+}
+
+void readLights(const Document& document, const Hierarchy& hierarchy, Scene& scene, Notices& notices) {
+  const Json* lights = extension(document.json, "KHR_lights_punctual");
+  if (!lights) return;
+  for (const int node : hierarchy.shown) {
+    const Json& nodeJson = document.json["nodes"][at(node)];
+    const Json* reference = extension(nodeJson, "KHR_lights_punctual");
+    if (!reference) continue;
+    const auto index = (*reference)["light"].get<std::size_t>();
+    auto light = readLight((*lights)["lights"][index], index, notices);
+    if (!light) continue;
+    const glm::dmat4& toWorld = hierarchy.toWorld[at(node)];
+    const auto direction = unit(-glm::dvec3(toWorld[2]));
+    if (!isFinite(toWorld[3]) || (!direction && light->kind != LightKind::Point)) {
+      notices.warn(fmt::format("the light at {} has a transform that cannot be used; it is left out",
+                               nodeLabel(document, node)));
+      continue;
+    }
+    light->position = glm::vec3(glm::dvec3(toWorld[3]));
+    if (direction) light->direction = glm::vec3(*direction);
+    light->castsShadows = light->castsShadows && castsShadows(child(nodeJson, "extras"));
+    if (light->name.empty()) light->name = document.model.nodes[at(node)].name;
+    scene.lights.push_back(std::move(*light));
+  }
+}
+
+}  // namespace whittle::gltf

@@ -1,0 +1,170 @@
+// See gltf_loader.h: glTF 2.0 in, Scene out. The order of the steps; each step has a file of its own
+// (gltf_*.h).
+#include "gltf/loader.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <new>
+#include <set>
+
+#include "gltf/bake.h"
+#include "gltf/document.h"
+#include "gltf/instances.h"
+#include "gltf/lights.h"
+#include "gltf/material.h"
+#include "gltf/mesh.h"
+#include "gltf/nodes.h"
+
+namespace whittle {
+
+namespace gltf {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The materials of everything that will be drawn; -1 is the default one.
+std::set<int> usedMaterials(const Document& document, const Hierarchy& hierarchy) {
+  std::set<int> used;
+  for (const int node : hierarchy.shown) {
+    const int mesh = document.model.nodes[at(node)].mesh;
+    if (mesh < 0) continue;
+    for (const tinygltf::Primitive& p : document.model.meshes[at(mesh)].primitives) {
+      if (isDrawable(p)) used.insert(p.material);
+    }
+  }
+  return used;
+}
+
+/// Draws the meshes of a scene's nodes into its arrays.
+class MeshLoader {
+ public:
+  MeshLoader(Document& document, const Hierarchy& hierarchy, std::vector<int> materials, Scene& scene,
+             Notices& notices)
+      : document_(document),
+        hierarchy_(hierarchy),
+        materials_(std::move(materials)),
+        scene_(scene),
+        notices_(notices),
+        baker_(document, scene) {
+    for (const int node : hierarchy.shown) {
+      const int mesh = document.model.nodes[at(node)].mesh;
+      if (mesh >= 0) ++uses_[mesh];
+    }
+  }
+
+  void addAll() {
+    for (const int node : hierarchy_.shown) {
+      if (document_.model.nodes[at(node)].mesh >= 0) addNode(node);
+    }
+    baker_.finish(notices_);
+    if (notDrawn_ > 0) {
+      notices_.note(
+          fmt::format("{} mesh primitives not drawn: points, lines, or without positions", notDrawn_));
+    }
+  }
+
+ private:
+  void addNode(int node) {
+    const tinygltf::Node& n = document_.model.nodes[at(node)];
+    const auto& primitives = document_.model.meshes[at(n.mesh)].primitives;
+    const std::string label = nodeLabel(document_, node);
+    const std::vector<glm::dmat4> joints =
+        n.skin >= 0 ? jointTransforms(document_, n.skin, hierarchy_.toWorld) : std::vector<glm::dmat4>();
+    const std::vector<glm::dmat4> instances =
+        instanceTransforms(document_, node, hierarchy_.toWorld[at(node)]);
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      if (!isDrawable(primitives[p])) {
+        ++notDrawn_;
+        continue;
+      }
+      const auto material = static_cast<std::uint32_t>(materials_[at(primitives[p].material + 1)]);
+      LocalMesh storage;
+      const LocalMesh& mesh = localMesh(node, static_cast<int>(p), material, storage);
+      if (n.skin >= 0 && mesh.influences > 0) {
+        baker_.addSkinned(mesh, joints, material, label);
+        continue;
+      }
+      if (n.skin >= 0) notices_.warn(fmt::format("{} has a skin, but its mesh has no joints", label));
+      for (const glm::dmat4& toWorld : instances) baker_.add(mesh, toWorld, material, label);
+    }
+  }
+
+  /// A mesh that several nodes show unchanged is read once and kept; others are read into `storage`.
+  const LocalMesh& localMesh(int node, int primitive, std::uint32_t material, LocalMesh& storage) {
+    const tinygltf::Node& n = document_.model.nodes[at(node)];
+    const auto& weights = n.weights.empty() ? document_.model.meshes[at(n.mesh)].weights : n.weights;
+    const bool isShared = uses_[n.mesh] > 1 && n.weights.empty();
+    const auto key = std::make_tuple(n.mesh, primitive, n.skin >= 0);
+    if (isShared) {
+      if (const auto found = kept_.find(key); found != kept_.end()) return found->second;
+    }
+    storage = readPrimitive(document_, n.mesh, primitive, scene_.materials[material], weights, n.skin >= 0,
+                            notices_);
+    if (!isShared) return storage;
+    return kept_.emplace(key, std::move(storage)).first->second;
+  }
+
+  Document& document_;
+  const Hierarchy& hierarchy_;
+  std::vector<int> materials_;  ///< scene material by glTF material plus one
+  Scene& scene_;
+  Notices& notices_;
+  Baker baker_;
+  std::map<int, int> uses_;  ///< nodes that show each mesh
+  std::map<std::tuple<int, int, bool>, LocalMesh> kept_;
+  std::size_t notDrawn_ = 0;
+};
+
+/// extras.whittle.background of the scene, [r, g, b]. Extras may hold anything, so other shapes are none of
+/// our business.
+void readBackground(const Document& document, int sceneIndex, Scene& scene, Notices& notices) {
+  if (sceneIndex < 0) return;
+  static const Json::json_pointer kWhere("/extras/whittle/background");
+  const Json& description = document.json["scenes"][at(sceneIndex)];
+  if (!description.contains(kWhere)) return;
+  const Json& value = description[kWhere];
+  bool isColour = value.is_array() && value.size() == 3;
+  for (std::size_t i = 0; isColour && i < 3; ++i) {
+    isColour = value[i].is_number() && value[i].get<double>() >= 0.0 && value[i].get<double>() < 1e30;
+  }
+  if (!isColour) {
+    notices.warn("extras.whittle.background of the scene is not three numbers of 0 or more; it is left out");
+    return;
+  }
+  scene.background.radiance = {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
+}
+
+void load(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
+  const Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
+  std::vector<int> materials = readMaterials(document, usedMaterials(document, hierarchy), scene, notices);
+  MeshLoader(document, hierarchy, std::move(materials), scene, notices).addAll();
+  readCameras(document, hierarchy, scene, notices);
+  readLights(document, hierarchy, scene, notices);
+  readBackground(document, hierarchy.scene, scene, notices);
+}
+
+}  // namespace
+
+}  // namespace gltf
+
+Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
+  Scene scene;
+  scene.file = path.string();
+  gltf::Document document;
+  try {
+    gltf::openDocument(document, path, notices);
+    gltf::load(document, options, scene, notices);
+  } catch (const gltf::Json::exception& e) {
+    document.fail(e.what());  // a hole in the checks, but still one line instead of a crash
+  } catch (const std::bad_alloc&) {
+    document.fail("needs more memory than there is");
+  } catch (const std::length_error&) {
+    document.fail("needs more memory than there is");
+  }
+  addDefaults(scene, notices, options);
+  return scene;
+}
+
+}  // namespace whittle

@@ -1,0 +1,148 @@
+// See gltf_material.h. Factors: glTF 2.0, 3.9 and the extensions' own texts.
+#include "gltf/material.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "gltf/texture.h"
+
+namespace whittle::gltf {
+
+namespace {
+
+float factor(const Json& object, const char* key, double fallback) {
+  return static_cast<float>(number(object, key, fallback));
+}
+
+glm::vec3 colour(const Json& object, const char* key, float fallback) {
+  const Json& v = child(object, key);
+  if (v.size() != 3) return glm::vec3(fallback);
+  return {v[0].get<float>(), v[1].get<float>(), v[2].get<float>()};
+}
+
+std::string materialLabel(const Json& m, std::size_t i) {
+  return fmt::format("material {}{}", i, quotedName(m.value("name", "")));
+}
+
+void readBase(const tinygltf::Material& m, const Json& json, TextureReader& textures, Material& out) {
+  const tinygltf::PbrMetallicRoughness& pbr = m.pbrMetallicRoughness;
+  for (int i = 0; i < 4; ++i)
+    out.baseColor[i] = static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
+  out.metallic = static_cast<float>(pbr.metallicFactor);
+  out.roughness = static_cast<float>(pbr.roughnessFactor);
+  for (int i = 0; i < 3; ++i)
+    out.emission[i] = static_cast<float>(m.emissiveFactor[static_cast<std::size_t>(i)]);
+  out.alphaCutoff = static_cast<float>(m.alphaCutoff);
+  out.doubleSided = m.doubleSided;
+  const Json& pbrJson = child(json, "pbrMetallicRoughness");
+  out.baseColorTexture = textures.slot(pbrJson, "baseColorTexture");
+  out.metallicRoughnessTexture = textures.slot(pbrJson, "metallicRoughnessTexture");
+  out.normalTexture = textures.slot(json, "normalTexture");
+  out.normalScale = factor(child(json, "normalTexture"), "scale", 1.0);
+  out.occlusionTexture = textures.slot(json, "occlusionTexture");
+  out.occlusionStrength = factor(child(json, "occlusionTexture"), "strength", 1.0);
+  out.emissionTexture = textures.slot(json, "emissiveTexture");
+}
+
+/// -ln(colour)/distance, and 0 where the colour is 1 or the distance infinite.
+float absorption(double transmitted, double distance) {
+  if (transmitted >= 1.0 || !std::isfinite(distance)) return 0.0F;
+  return static_cast<float>(-std::log(std::max(transmitted, 0.0)) / distance);
+}
+
+void readVolume(const Json& volume, const std::string& label, Material& out, Notices& notices) {
+  out.volume = number(volume, "thicknessFactor", 0.0) > 0.0;
+  if (!out.volume || !volume.contains("attenuationDistance")) return;
+  const double distance = number(volume, "attenuationDistance", 0.0);
+  if (!(distance > 0.0)) {
+    notices.warn(fmt::format("{}: attenuationDistance must be positive; nothing is absorbed", label));
+    return;
+  }
+  const glm::vec3 c = colour(volume, "attenuationColor", 1.0F);
+  for (int i = 0; i < 3; ++i) out.sigma_a[i] = absorption(c[i], distance);
+}
+
+void readExtensions(const Json& json, const std::string& label, TextureReader& textures, Material& out,
+                    Notices& notices) {
+  if (const Json* e = extension(json, "KHR_materials_emissive_strength")) {
+    out.emission *= factor(*e, "emissiveStrength", 1.0);
+  }
+  if (const Json* e = extension(json, "KHR_materials_ior")) {
+    out.ior = factor(*e, "ior", 1.5);
+    if (out.ior < 0.0F) {
+      notices.warn(fmt::format("{}: ior must not be negative; 1.5 is used", label));
+      out.ior = 1.5F;
+    }
+  }
+  if (const Json* e = extension(json, "KHR_materials_transmission")) {
+    out.transmission = factor(*e, "transmissionFactor", 0.0);
+    out.transmissionTexture = textures.slot(*e, "transmissionTexture");
+  }
+  if (const Json* e = extension(json, "KHR_materials_specular")) {
+    out.specular = factor(*e, "specularFactor", 1.0);
+    out.specularTexture = textures.slot(*e, "specularTexture");
+    out.specularColor = colour(*e, "specularColorFactor", 1.0F);
+    out.specularColorTexture = textures.slot(*e, "specularColorTexture");
+  }
+  if (const Json* e = extension(json, "KHR_materials_volume")) readVolume(*e, label, out, notices);
+  out.unlit = extension(json, "KHR_materials_unlit") != nullptr;
+}
+
+AlphaMode alphaModeOf(const std::string& mode, const std::string& label, Notices& notices) {
+  if (mode == "MASK") return AlphaMode::Mask;
+  if (mode == "BLEND") return AlphaMode::Blend;
+  if (mode != "OPAQUE")
+    notices.warn(fmt::format("{}: unknown alphaMode{}; opaque is used", label, quotedName(mode)));
+  return AlphaMode::Opaque;
+}
+
+/// Kept as they are, so that the picture shows what the file says; but said.
+void warnOfRange(const Material& m, const std::string& label, Notices& notices) {
+  const auto outside = [](float v) { return !(v >= 0.0F && v <= 1.0F); };
+  bool strange =
+      outside(m.metallic) || outside(m.roughness) || outside(m.transmission) || outside(m.specular);
+  for (int i = 0; i < 4; ++i) strange = strange || outside(m.baseColor[i]);
+  for (int i = 0; i < 3; ++i) strange = strange || !(m.emission[i] >= 0.0F) || !(m.specularColor[i] >= 0.0F);
+  if (strange) notices.warn(fmt::format("{}: a factor is outside its range", label));
+}
+
+/// Roughness from which clear glass looks wrong; textures may make a surface smoother than its factor.
+bool transmitsRoughly(const Material& m) { return m.transmission > 0.0F && m.roughness > 0.2F; }
+
+}  // namespace
+
+std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, Scene& scene,
+                               Notices& notices) {
+  std::vector<int> indices(document.model.materials.size() + 1, -1);
+  TextureReader textures(document, scene, notices);
+  int rough = 0;
+  for (const int index : wanted) {
+    if (index < 0) continue;
+    const auto i = static_cast<std::size_t>(index);
+    const Json& json = document.json["materials"][i];
+    const std::string label = materialLabel(json, i);
+    Material material;
+    material.name = document.model.materials[i].name;
+    material.alphaMode = alphaModeOf(document.model.materials[i].alphaMode, label, notices);
+    readBase(document.model.materials[i], json, textures, material);
+    readExtensions(json, label, textures, material, notices);
+    warnOfRange(material, label, notices);
+    rough += transmitsRoughly(material);
+    indices[i + 1] = static_cast<int>(scene.materials.size());
+    scene.materials.push_back(std::move(material));
+  }
+  if (rough > 0)
+    notices.note(fmt::format("{} transmit{} light through a rough surface: drawn clear",
+                             rough == 1 ? "1 material" : fmt::format("{} materials", rough),
+                             rough == 1 ? "s" : ""));
+  if (wanted.contains(-1)) {
+    indices[0] = static_cast<int>(scene.materials.size());
+    Material fallback;
+    fallback.name = "default";
+    scene.materials.push_back(std::move(fallback));
+  }
+  return indices;
+}
+
+}  // namespace whittle::gltf

@@ -1,0 +1,229 @@
+// See gltf_mesh.h. Attributes and their formats: glTF 2.0, 3.7.2, and KHR_mesh_quantization; morph
+// targets: 3.7.2.2.
+#include "gltf/mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "gltf/accessor.h"
+#include "gltf/topology.h"
+
+namespace whittle::gltf {
+
+namespace {
+
+/// The formats an attribute may have. With KHR_mesh_quantization integers serve as positions and coordinates
+/// as they are.
+struct Format {
+  int leastComponents;
+  int mostComponents;
+  bool plainIntegers;  ///< small integers that are not normalised are legal
+  bool isUnsigned;     ///< integers must be unsigned
+};
+constexpr Format kPosition{3, 3, true, false};
+constexpr Format kDirection{3, 3, false, false};
+constexpr Format kTangent{4, 4, false, false};
+constexpr Format kCoordinate{2, 2, true, false};
+constexpr Format kColour{3, 4, false, true};
+constexpr Format kWeights{4, 4, false, true};
+
+class PrimitiveReader {
+ public:
+  PrimitiveReader(Document& document, int mesh, int primitive, std::span<const double> weights,
+                  Notices& notices)
+      : document_(document),
+        primitive_(document.model.meshes[static_cast<std::size_t>(mesh)]
+                       .primitives[static_cast<std::size_t>(primitive)]),
+        weights_(weights),
+        notices_(notices),
+        label_(fmt::format("meshes[{}]{} primitive {}", mesh,
+                           quotedName(document.model.meshes[static_cast<std::size_t>(mesh)].name),
+                           primitive)) {}
+
+  LocalMesh read(const Material& material, bool isSkinned) {
+    LocalMesh mesh;
+    readPositions(mesh);
+    copyTo(mesh.normals, attribute("NORMAL", kDirection));
+    if (isSkinned) readInfluences(mesh);
+    const Needs needs = needsOf(material);
+    if (needs.uv[0]) readCoordinates(mesh, 0);
+    if (needs.uv[1]) readCoordinates(mesh, 1);
+    if (needs.tangents) copyTo(mesh.tangents, attribute("TANGENT", kTangent));
+    readColours(mesh);
+    mesh.triangles = readTriangles(document_, primitive_, count_, label_, notices_);
+    if (needs.tangents && mesh.tangents.empty()) generateTangents(mesh, material.normalTexture);
+    return mesh;
+  }
+
+ private:
+  void readPositions(LocalMesh& mesh) {
+    const int accessor = primitive_.attributes.at("POSITION");
+    const tinygltf::Accessor& a = accessorAt(document_, accessor);
+    if (!fits(a, kPosition)) {
+      document_.fail(
+          fmt::format("{}: POSITION is not made of three-component vectors of a legal type", label_));
+    }
+    count_ = a.count;
+    std::vector<float> values = readFloats(document_, accessor);
+    if (a.count >= std::numeric_limits<std::uint32_t>::max()) {
+      document_.fail(fmt::format("{}: more vertices than 32-bit indices can name", label_));
+    }
+    morph("POSITION", 3, values);
+    copyTo(mesh.positions, values);
+  }
+
+  void readCoordinates(LocalMesh& mesh, int set) {
+    const std::string name = fmt::format("TEXCOORD_{}", set);
+    copyTo(mesh.uv[set], attribute(name, kCoordinate));
+    if (mesh.uv[set].empty()) {
+      notices_.warn(fmt::format("{}: its material reads {}, which it does not have", label_, name));
+    }
+  }
+
+  void readColours(LocalMesh& mesh) {
+    const std::vector<float> values = attribute("COLOR_0", kColour);
+    if (values.empty()) return;
+    const std::size_t n = values.size() / count_;
+    mesh.colors.resize(count_, glm::vec4(1.0F));
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t c = 0; c < n; ++c) mesh.colors[i][static_cast<int>(c)] = values[i * n + c];
+    }
+  }
+
+  /// JOINTS_0 and WEIGHTS_0, then 1, …: as many sets as there are.
+  void readInfluences(LocalMesh& mesh) {
+    std::vector<std::vector<std::uint32_t>> joints;
+    std::vector<std::vector<float>> weights;
+    for (int set = 0;; ++set) {
+      const auto found = primitive_.attributes.find(fmt::format("JOINTS_{}", set));
+      if (found == primitive_.attributes.end()) break;
+      const tinygltf::Accessor& a = accessorAt(document_, found->second);
+      const bool isLegal = a.type == TINYGLTF_TYPE_VEC4 && a.count == count_ &&
+                           (a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                            a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+      if (!isLegal)
+        document_.fail(fmt::format("{}: JOINTS_{} has a type or count that is not legal", label_, set));
+      weights.push_back(attribute(fmt::format("WEIGHTS_{}", set), kWeights));
+      if (weights.back().empty())
+        document_.fail(fmt::format("{}: JOINTS_{} without WEIGHTS_{}", label_, set, set));
+      joints.push_back(readUnsigned(document_, found->second));
+    }
+    mesh.influences = static_cast<int>(4 * joints.size());
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t set = 0; set < joints.size(); ++set) {
+        mesh.joints.insert(mesh.joints.end(), &joints[set][4 * i], &joints[set][4 * i] + 4);
+        mesh.weights.insert(mesh.weights.end(), &weights[set][4 * i], &weights[set][4 * i] + 4);
+      }
+    }
+  }
+
+  static bool fits(const tinygltf::Accessor& a, const Format& format) {
+    const int n = componentCount(a);
+    const bool isVector =
+        a.type == TINYGLTF_TYPE_VEC2 || a.type == TINYGLTF_TYPE_VEC3 || a.type == TINYGLTF_TYPE_VEC4;
+    if (!isVector || n < format.leastComponents || n > format.mostComponents) return false;
+    if (isFloat(a)) return true;
+    const bool isSigned =
+        a.componentType == TINYGLTF_COMPONENT_TYPE_BYTE || a.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
+    return isSmallInteger(a) && (a.normalized || format.plainIntegers) && !(isSigned && format.isUnsigned);
+  }
+
+  /// Empty if the attribute is absent, or left out because of its format.
+  std::vector<float> attribute(const std::string& name, const Format& format) {
+    const auto found = primitive_.attributes.find(name);
+    if (found == primitive_.attributes.end()) return {};
+    const tinygltf::Accessor& a = accessorAt(document_, found->second);
+    if (a.count != count_) {
+      document_.fail(fmt::format("{}: {} has {} elements for {} vertices", label_, name, a.count, count_));
+    }
+    if (!fits(a, format)) {
+      notices_.warn(fmt::format("{}: the format of {} is not legal; it is left out", label_, name));
+      return {};
+    }
+    std::vector<float> values = readFloats(document_, found->second);
+    morph(name, componentCount(a), values);
+    return values;
+  }
+
+  /// Adds weight · delta for each target that has the attribute. Deltas of tangents have no w.
+  void morph(const std::string& name, int components, std::vector<float>& values) {
+    for (std::size_t t = 0; t < std::min(weights_.size(), primitive_.targets.size()); ++t) {
+      const auto found = primitive_.targets[t].find(name);
+      if (weights_[t] == 0.0 || found == primitive_.targets[t].end()) continue;
+      const tinygltf::Accessor& a = accessorAt(document_, found->second);
+      const int n = componentCount(a);
+      const bool isLegal = a.count == count_ && (isFloat(a) || isSmallInteger(a)) &&
+                           n >= std::min(components, 3) && n <= components;
+      if (!isLegal) document_.fail(fmt::format("{}: {} of morph target {} does not fit", label_, name, t));
+      const std::vector<float> deltas = readFloats(document_, found->second);
+      for (std::size_t i = 0; i < count_; ++i) {
+        for (int c = 0; c < n; ++c) {
+          float& value = values[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
+          const double delta = deltas[i * static_cast<std::size_t>(n) + static_cast<std::size_t>(c)];
+          value = static_cast<float>(value + weights_[t] * delta);
+        }
+      }
+    }
+  }
+
+  template <class Vector>
+  static void copyTo(std::vector<Vector>& out, const std::vector<float>& values) {
+    out.resize(values.size() * sizeof(float) / sizeof(Vector));
+    if (!out.empty()) std::memcpy(out.data(), values.data(), out.size() * sizeof(Vector));
+  }
+
+  Document& document_;
+  const tinygltf::Primitive& primitive_;
+  std::span<const double> weights_;
+  Notices& notices_;
+  std::string label_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+Needs needsOf(const Material& material) {
+  Needs needs;
+  for (const TextureSlot* slot :
+       {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
+        &material.occlusionTexture, &material.emissionTexture, &material.specularTexture,
+        &material.specularColorTexture, &material.transmissionTexture}) {
+    if (slot->used()) needs.uv[slot->uvSet] = true;
+  }
+  needs.tangents = material.normalTexture.used();
+  return needs;
+}
+
+bool isDrawable(const tinygltf::Primitive& primitive) {
+  return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.attributes.contains("POSITION");
+}
+
+LocalMesh readPrimitive(Document& document, int mesh, int primitive, const Material& material,
+                        std::span<const double> morphWeights, bool isSkinned, Notices& notices) {
+  return PrimitiveReader(document, mesh, primitive, morphWeights, notices).read(material, isSkinned);
+}
+
+std::uint32_t duplicateVertex(LocalMesh& mesh, std::uint32_t v) {
+  const auto duplicate = [v](auto& array) {
+    if (!array.empty()) array.push_back(array[v]);
+  };
+  duplicate(mesh.positions);
+  duplicate(mesh.normals);
+  duplicate(mesh.tangents);
+  duplicate(mesh.uv[0]);
+  duplicate(mesh.uv[1]);
+  duplicate(mesh.colors);
+  for (int k = 0; k < mesh.influences; ++k) {
+    const std::size_t at =
+        static_cast<std::size_t>(v) * static_cast<std::size_t>(mesh.influences) + static_cast<std::size_t>(k);
+    mesh.joints.push_back(mesh.joints[at]);
+    mesh.weights.push_back(mesh.weights[at]);
+  }
+  return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+}
+
+}  // namespace whittle::gltf

@@ -1,0 +1,169 @@
+// See gltf_nodes.h. Every walk keeps its own stack: hierarchies as deep as the file has nodes are legal.
+#include "gltf/nodes.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace whittle::gltf {
+
+namespace {
+
+using Parents = std::vector<int>;
+
+glm::dvec3 vec3Or(const std::vector<double>& v, double fallback) {
+  return v.size() == 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(fallback);
+}
+
+glm::dmat4 localTransform(const tinygltf::Node& node) {
+  if (node.matrix.size() == 16) {
+    glm::dmat4 m;
+    for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
+    return m;
+  }
+  const auto& r = node.rotation;
+  return composed(vec3Or(node.translation, 0.0),
+                  r.size() == 4 ? glm::dvec4(r[0], r[1], r[2], r[3]) : glm::dvec4(0, 0, 0, 1),
+                  vec3Or(node.scale, 1.0));
+}
+
+Parents findParents(const Document& document) {
+  const auto& nodes = document.model.nodes;
+  Parents parents(nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (const int c : nodes[i].children) {
+      int& parent = parents[static_cast<std::size_t>(c)];
+      if (parent >= 0) {
+        document.fail(fmt::format("{} has two parents, nodes {} and {}", nodeLabel(document, c), parent, i));
+      }
+      parent = static_cast<int>(i);
+    }
+  }
+  return parents;
+}
+
+/// Depth first from `roots`, children in file order. With one parent each no node is met twice below distinct
+/// roots.
+template <class Visit>
+void walk(const std::vector<tinygltf::Node>& nodes, const std::vector<int>& roots, Visit visit) {
+  std::vector<int> stack(roots.rbegin(), roots.rend());
+  while (!stack.empty()) {
+    const int node = stack.back();
+    stack.pop_back();
+    visit(node);
+    const auto& children = nodes[static_cast<std::size_t>(node)].children;
+    stack.insert(stack.end(), children.rbegin(), children.rend());
+  }
+}
+
+/// A node on a cycle, there being one: going up from each node, until a root or where one has been before.
+int nodeOfCycle(const Parents& parents) {
+  std::vector<std::size_t> seenFrom(parents.size(), parents.size());
+  for (std::size_t start = 0; start < parents.size(); ++start) {
+    int node = static_cast<int>(start);
+    while (node >= 0 && seenFrom[static_cast<std::size_t>(node)] == parents.size()) {
+      seenFrom[static_cast<std::size_t>(node)] = start;
+      node = parents[static_cast<std::size_t>(node)];
+    }
+    if (node >= 0 && seenFrom[static_cast<std::size_t>(node)] == start) return node;
+  }
+  return 0;
+}
+
+std::vector<glm::dmat4> globalTransforms(const Document& document, const Parents& parents,
+                                         const std::vector<int>& roots) {
+  const auto& nodes = document.model.nodes;
+  std::vector<glm::dmat4> toWorld(nodes.size(), glm::dmat4(1.0));
+  std::size_t reached = 0;
+  walk(nodes, roots, [&](int node) {
+    const auto i = static_cast<std::size_t>(node);
+    const glm::dmat4 local = localTransform(nodes[i]);
+    toWorld[i] = parents[i] < 0 ? local : toWorld[static_cast<std::size_t>(parents[i])] * local;
+    ++reached;
+  });
+  // With single parents, what no root reaches hangs on a cycle.
+  if (reached != nodes.size()) {
+    document.fail(fmt::format("{} is its own ancestor: nodes must form trees",
+                              nodeLabel(document, nodeOfCycle(parents))));
+  }
+  return toWorld;
+}
+
+int sceneCalled(const Document& document, const std::string& wanted) {
+  const auto& scenes = document.model.scenes;
+  std::string names;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (scenes[i].name == wanted) return static_cast<int>(i);
+    if (names.size() < 150) names += fmt::format("{}{}{}", i > 0 ? ", " : "", i, quotedName(scenes[i].name));
+  }
+  std::size_t number = 0;
+  const char* end = wanted.data() + wanted.size();
+  const auto [parsed, error] = std::from_chars(wanted.data(), end, number);
+  if (error == std::errc() && parsed == end && number < scenes.size()) return static_cast<int>(number);
+  document.fail(
+      fmt::format("has no scene{} (it has: {})", quotedName(wanted), names.empty() ? "none" : names));
+}
+
+int chooseScene(const Document& document, const std::optional<std::string>& wanted, Notices& notices) {
+  if (wanted) return sceneCalled(document, *wanted);
+  if (document.model.defaultScene >= 0) return document.model.defaultScene;
+  if (document.model.scenes.empty()) {
+    if (!document.model.nodes.empty()) notices.note("the file has no scene: all its nodes are shown");
+    return -1;
+  }
+  if (document.model.scenes.size() > 1) notices.note("the file names no default scene: the first is shown");
+  return 0;
+}
+
+/// A scene may list each root once, and roots only.
+void checkSceneRoots(const Document& document, const Parents& parents, const std::vector<int>& roots) {
+  std::vector<bool> listed(parents.size());
+  for (const int root : roots) {
+    const auto i = static_cast<std::size_t>(root);
+    if (parents[i] >= 0) {
+      document.fail(
+          fmt::format("the scene lists {}, a child of node {}", nodeLabel(document, root), parents[i]));
+    }
+    if (listed[i]) document.fail(fmt::format("the scene lists {} twice", nodeLabel(document, root)));
+    listed[i] = true;
+  }
+}
+
+}  // namespace
+
+glm::dmat4 composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale) {
+  const double length = glm::length(rotation);
+  const glm::dvec4 q = length > 0.0 && std::isfinite(length) ? rotation / length : glm::dvec4(0, 0, 0, 1);
+  const double x = q.x, y = q.y, z = q.z, w = q.w;
+  glm::dmat4 m(1.0);
+  m[0] = glm::dvec4(1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y), 0) * scale.x;
+  m[1] = glm::dvec4(2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x), 0) * scale.y;
+  m[2] = glm::dvec4(2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y), 0) * scale.z;
+  m[3] = glm::dvec4(translation, 1.0);
+  return m;
+}
+
+std::string nodeLabel(const Document& document, int node) {
+  return fmt::format("node {}{}", node,
+                     quotedName(document.model.nodes[static_cast<std::size_t>(node)].name));
+}
+
+Hierarchy readHierarchy(const Document& document, const std::optional<std::string>& sceneName,
+                        Notices& notices) {
+  const auto& model = document.model;
+  const Parents parents = findParents(document);
+  std::vector<int> roots;
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    if (parents[i] < 0) roots.push_back(static_cast<int>(i));
+  }
+  Hierarchy hierarchy;
+  hierarchy.toWorld = globalTransforms(document, parents, roots);
+  hierarchy.scene = chooseScene(document, sceneName, notices);
+  if (hierarchy.scene >= 0) roots = model.scenes[static_cast<std::size_t>(hierarchy.scene)].nodes;
+  checkSceneRoots(document, parents, roots);
+  walk(model.nodes, roots, [&](int node) { hierarchy.shown.push_back(node); });
+  return hierarchy;
+}
+
+}  // namespace whittle::gltf

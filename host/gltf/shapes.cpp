@@ -1,0 +1,146 @@
+// See gltf_shapes.h. The tables follow the JSON schemas of glTF 2.0 and of the extensions that are read.
+#include "gltf/shapes.h"
+
+#include <array>
+
+namespace whittle::gltf {
+
+namespace {
+
+constexpr Field required(Field field) {
+  field.isRequired = true;
+  return field;
+}
+constexpr Field index(const char* key, const char* target) { return {key, Kind::Index, target}; }
+constexpr Field code(const char* key, std::span<const int> oneOf) {
+  return {key, Kind::Index, nullptr, {}, 0, oneOf};
+}
+constexpr Field size(const char* key) { return {key, Kind::Size}; }
+/// tinygltf keeps the numbers of sparse accessors as int.
+constexpr Field smallSize(const char* key) { return {key, Kind::Index}; }
+constexpr Field num(const char* key) { return {key, Kind::Number}; }
+constexpr Field nums(const char* key, std::size_t n) { return {key, Kind::Numbers, nullptr, {}, n}; }
+constexpr Field flag(const char* key) { return {key, Kind::Flag}; }
+constexpr Field text(const char* key) { return {key, Kind::Text}; }
+constexpr Field texts(const char* key) { return {key, Kind::Texts}; }
+constexpr Field indices(const char* key, const char* target) { return {key, Kind::Indices, target}; }
+constexpr Field object(const char* key, std::span<const Field> f) { return {key, Kind::Object, nullptr, f}; }
+constexpr Field objects(const char* key, std::span<const Field> f) {
+  return {key, Kind::Objects, nullptr, f};
+}
+constexpr Field raw(const char* key) { return {key, Kind::Raw}; }
+
+constexpr std::array kComponentTypes{5120, 5121, 5122, 5123, 5125, 5126};
+constexpr std::array kIndexTypes{5121, 5123, 5125};
+constexpr std::array kModes{0, 1, 2, 3, 4, 5, 6};
+constexpr std::array kWraps{10497, 33071, 33648};
+constexpr std::array kMagFilters{9728, 9729};
+constexpr std::array kMinFilters{9728, 9729, 9984, 9985, 9986, 9987};
+
+constexpr std::array kAsset{required(text("version")), text("minVersion")};
+constexpr std::array kBuffer{required(size("byteLength")), text("uri")};
+constexpr std::array kView{required(index("buffer", "buffers")), size("byteOffset"),
+                           required(size("byteLength")), size("byteStride")};
+constexpr std::array kSparseIndices{required(index("bufferView", "bufferViews")), smallSize("byteOffset"),
+                                    required(code("componentType", kIndexTypes))};
+constexpr std::array kSparseValues{required(index("bufferView", "bufferViews")), smallSize("byteOffset")};
+constexpr std::array kSparse{required(smallSize("count")), required(object("indices", kSparseIndices)),
+                             required(object("values", kSparseValues))};
+constexpr std::array kAccessor{index("bufferView", "bufferViews"),
+                               size("byteOffset"),
+                               flag("normalized"),
+                               required(code("componentType", kComponentTypes)),
+                               required(size("count")),
+                               required(text("type")),
+                               object("sparse", kSparse)};
+constexpr std::array kPrimitive{required(Field{"attributes", Kind::Map, "accessors"}),
+                                index("indices", "accessors"), index("material", "materials"),
+                                code("mode", kModes), Field{"targets", Kind::Maps, "accessors"}};
+constexpr std::array kMesh{required(objects("primitives", kPrimitive)), nums("weights", 0), text("name")};
+constexpr std::array kInstancing{required(Field{"attributes", Kind::Map, "accessors"})};
+constexpr std::array kNodeLight{required(index("light", "lights"))};
+constexpr std::array kNodeExtensions{object("KHR_lights_punctual", kNodeLight),
+                                     object("EXT_mesh_gpu_instancing", kInstancing)};
+constexpr std::array kNode{text("name"),
+                           indices("children", "nodes"),
+                           index("mesh", "meshes"),
+                           index("skin", "skins"),
+                           index("camera", "cameras"),
+                           nums("matrix", 16),
+                           nums("translation", 3),
+                           nums("rotation", 4),
+                           nums("scale", 3),
+                           nums("weights", 0),
+                           object("extensions", kNodeExtensions),
+                           raw("extras")};
+constexpr std::array kScene{text("name"), indices("nodes", "nodes"), raw("extras")};
+constexpr std::array kSkin{text("name"), required(indices("joints", "nodes")),
+                           index("inverseBindMatrices", "accessors")};
+constexpr std::array kPerspective{required(num("yfov")), required(num("znear")), num("aspectRatio"),
+                                  num("zfar")};
+constexpr std::array kOrthographic{required(num("xmag")), required(num("ymag")), required(num("znear")),
+                                   required(num("zfar"))};
+constexpr std::array kCamera{text("name"), required(text("type")), object("perspective", kPerspective),
+                             object("orthographic", kOrthographic)};
+constexpr std::array kSpot{num("innerConeAngle"), num("outerConeAngle")};
+constexpr std::array kLight{text("name"), required(text("type")), nums("color", 3), num("intensity"),
+                            num("range"), object("spot", kSpot),  raw("extras")};
+constexpr std::array kLights{required(objects("lights", kLight))};
+constexpr std::array kRootExtensions{object("KHR_lights_punctual", kLights)};
+
+constexpr std::array kSampler{code("magFilter", kMagFilters), code("minFilter", kMinFilters),
+                              code("wrapS", kWraps), code("wrapT", kWraps)};
+constexpr std::array kImage{text("uri"), text("mimeType"), index("bufferView", "bufferViews"), text("name")};
+constexpr std::array kTexture{index("sampler", "samplers"), index("source", "images"), raw("extensions")};
+constexpr std::array kTransform{nums("offset", 2), num("rotation"), nums("scale", 2), size("texCoord")};
+constexpr std::array kSlotExtensions{object("KHR_texture_transform", kTransform)};
+constexpr std::array kSlot{required(index("index", "textures")), size("texCoord"), num("scale"),
+                           num("strength"), object("extensions", kSlotExtensions)};
+constexpr std::array kPbr{nums("baseColorFactor", 4), object("baseColorTexture", kSlot),
+                          num("metallicFactor"), num("roughnessFactor"),
+                          object("metallicRoughnessTexture", kSlot)};
+constexpr std::array kEmissiveStrength{num("emissiveStrength")};
+constexpr std::array kIor{num("ior")};
+constexpr std::array kTransmission{num("transmissionFactor"), object("transmissionTexture", kSlot)};
+constexpr std::array kVolume{num("thicknessFactor"), num("attenuationDistance"), nums("attenuationColor", 3)};
+constexpr std::array kSpecular{num("specularFactor"), object("specularTexture", kSlot),
+                               nums("specularColorFactor", 3), object("specularColorTexture", kSlot)};
+constexpr std::array kMaterialExtensions{object("KHR_materials_emissive_strength", kEmissiveStrength),
+                                         object("KHR_materials_ior", kIor),
+                                         object("KHR_materials_transmission", kTransmission),
+                                         object("KHR_materials_volume", kVolume),
+                                         object("KHR_materials_specular", kSpecular),
+                                         object("KHR_materials_unlit", {})};
+constexpr std::array kMaterial{text("name"),
+                               object("pbrMetallicRoughness", kPbr),
+                               object("normalTexture", kSlot),
+                               object("occlusionTexture", kSlot),
+                               object("emissiveTexture", kSlot),
+                               nums("emissiveFactor", 3),
+                               text("alphaMode"),
+                               num("alphaCutoff"),
+                               flag("doubleSided"),
+                               object("extensions", kMaterialExtensions)};
+constexpr std::array kRoot{required(object("asset", kAsset)),
+                           texts("extensionsUsed"),
+                           texts("extensionsRequired"),
+                           index("scene", "scenes"),
+                           objects("scenes", kScene),
+                           objects("nodes", kNode),
+                           objects("meshes", kMesh),
+                           objects("accessors", kAccessor),
+                           objects("bufferViews", kView),
+                           objects("buffers", kBuffer),
+                           objects("materials", kMaterial),
+                           objects("textures", kTexture),
+                           objects("images", kImage),
+                           objects("samplers", kSampler),
+                           objects("skins", kSkin),
+                           objects("cameras", kCamera),
+                           object("extensions", kRootExtensions)};
+
+}  // namespace
+
+std::span<const Field> rootFields() { return kRoot; }
+
+}  // namespace whittle::gltf

@@ -1,0 +1,94 @@
+// Finds and loads the image codec, checks paths, and hands the work over.
+#include "image/image_io.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+#include "image/image_codec.h"
+#include "scene/input_error.h"
+#include "scene/whole_file.h"
+
+namespace whittle {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Beside the program, above it (test programs), or where it is installed.
+const ImageCodec* loadCodec() {
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+  std::string problem;
+  for (const char* place : {".", "..", "../lib/whittle"}) {
+    const fs::path library = folder / place / "libwhittle_codec.so";
+    std::error_code error;
+    if (!fs::exists(library, error)) continue;
+    if (void* const handle = dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL)) {
+      using Entry = decltype(&whittleImageCodec);
+      if (const auto entry = reinterpret_cast<Entry>(dlsym(handle, "whittleImageCodec"))) return entry();
+    }
+    const char* const said = dlerror();
+    problem = said ? said : "it does not hold what it should";
+    break;
+  }
+  throw std::runtime_error(
+      fmt::format("libwhittle_codec.so, which reads and writes images, cannot be loaded: {}",
+                  problem.empty() ? "it is neither beside the program nor in ../lib/whittle" : problem));
+}
+
+const ImageCodec& codec() {
+  static const ImageCodec* const loaded = loadCodec();
+  return *loaded;
+}
+
+/// "png", "jpeg" or "openexr" by the extension, empty where it is none that can be written.
+std::string imageFormatOf(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".exr") return "openexr";
+  if (extension == ".png") return "png";
+  if (extension == ".jpg" || extension == ".jpeg") return "jpeg";
+  return {};
+}
+
+}  // namespace
+
+void loadImageCodec() { codec(); }
+
+Image decodeImage(std::span<const std::byte> bytes, const std::string& name) {
+  return codec().decodeImage(bytes, name);
+}
+
+Image readImage(const fs::path& path) { return codec().readImage(path); }
+
+FloatImage readFloatImage(const fs::path& path) { return codec().readFloatImage(path); }
+
+void writeExr(const fs::path& path, const FloatImage& image, const ImageMetadata& metadata,
+              const std::vector<std::string>& channelNames) {
+  if (imageFormatOf(path) != "openexr")
+    throw InputError(fmt::format("{}: linear radiance needs the extension .exr", path.string()));
+  checkFolderWritable(path);
+  codec().writeExr(path, image, metadata, channelNames);
+}
+
+void writeRgb8(const fs::path& path, int width, int height, std::span<const std::uint8_t> rgb,
+               const ImageMetadata& metadata) {
+  const std::string format = imageFormatOf(path);
+  if (format != "png" && format != "jpeg")
+    throw InputError(
+        fmt::format("{}: a tone-mapped picture needs the extension .png or .jpg", path.string()));
+  checkFolderWritable(path);
+  codec().writeRgb8(path, format, width, height, rgb, metadata);
+}
+
+void checkWritable(const fs::path& path) {
+  if (imageFormatOf(path).empty())
+    throw InputError(fmt::format(
+        "{}: the extension says no format that can be written; use .exr, .png or .jpg", path.string()));
+  checkFolderWritable(path);
+}
+
+}  // namespace whittle

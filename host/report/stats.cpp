@@ -1,0 +1,171 @@
+// Statistics as JSON; the names are a contract with scripts.
+#include "report/stats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/scene_features.h"
+#include "report/json_float.h"
+
+namespace whittle {
+
+const char* toString(Search search) {
+  return search == Search::Auto ? "auto" : (search == Search::Tree ? "tree" : "array");
+}
+const char* toString(Sampler sampler) {
+  return sampler == Sampler::Random ? "random" : (sampler == Sampler::Stratified ? "stratified" : "sobol");
+}
+const char* toString(ImpulseMode mode) { return mode == ImpulseMode::All ? "all" : "one"; }
+const char* toString(Lanes lanes) {
+  return lanes == Lanes::Auto ? "auto" : (lanes == Lanes::One ? "1" : "16");
+}
+
+namespace {
+
+std::vector<std::string> keptFeatures(const Settings& s) {
+  std::vector<std::string> names;
+  for (const Feature f : allFeatures())
+    if ((s.keepFeatures >> static_cast<int>(f)) & 1U) names.emplace_back(featureText(f));
+  return names;
+}
+
+}  // namespace
+
+double errorTarget(const Settings& s, const ErrorPoint& point) {
+  return s.targetErrorRelative > 0.0 ? s.targetErrorRelative * point.mean : s.targetError;
+}
+
+bool meetsTarget(const Settings& s, const ErrorPoint& point) {
+  return hasErrorTarget(s) && point.raysPerPixel >= 2 && std::isfinite(point.estimate) &&
+         point.estimate <= errorTarget(s, point);
+}
+
+nlohmann::ordered_json settingsToJson(const Settings& s) {
+  return {{"width", s.width},
+          {"height", s.height},
+          {"camera", s.camera},
+          {"exposure", jsonFloat(s.exposure)},
+          {"bounces", s.bounces},
+          {"cutoff", jsonFloat(s.cutoff)},
+          {"raysPerPixel", s.raysPerPixel},
+          {"shadows", s.shadows},
+          {"search", toString(s.search)},
+          {"sampler", toString(s.sampler)},
+          {"seed", s.seed},
+          {"impulses", toString(s.impulses)},
+          {"device", s.device},
+          {"threads", s.threads},
+          {"lanes", toString(s.lanes)},
+          {"wavefront", s.wavefront},
+          {"workGroup", s.workGroup},
+          {"bump", s.bump ? nlohmann::ordered_json(jsonFloat(*s.bump)) : nlohmann::ordered_json(nullptr)},
+          {"mirrorRoughness", jsonFloat(s.mirrorRoughness)},
+          {"relaxedArithmetic", s.relaxedArithmetic},
+          {"keepAllFeatures", s.keepAllFeatures},
+          {"keepFeatures", keptFeatures(s)},
+          {"adaptive", s.adaptive},
+          {"targetError", s.targetError},
+          {"targetErrorRelative", s.targetErrorRelative},
+          {"timeLimit", s.timeLimit}};
+}
+
+namespace {
+
+nlohmann::ordered_json memoryToJson(const std::vector<BufferStats>& buffers) {
+  nlohmann::ordered_json memory;
+  std::uint64_t total = 0;
+  for (const char* group : {"tree", "triangles", "queues", "textures", "film"}) {
+    std::uint64_t sum = 0;
+    for (const auto& b : buffers)
+      if (b.group == group) sum += b.bytes;
+    memory[group] = sum;
+    total += sum;
+  }
+  memory["total"] = total;
+  for (const auto& b : buffers) memory["buffers"].push_back({{"name", b.name}, {"bytes", b.bytes}});
+  return memory;
+}
+
+nlohmann::ordered_json stagesToJson(const std::vector<StageStats>& stages) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& stage : stages)
+    list.push_back({{"name", stage.name},
+                    {"launches", stage.launches},
+                    {"seconds", stage.seconds},
+                    {"items", stage.items},
+                    {"bytes", stage.bytes}});
+  return list;
+}
+
+/// 4, not 4.0.
+nlohmann::ordered_json wholeIfWhole(double x) {
+  if (x == std::floor(x) && std::fabs(x) < 1e15) return static_cast<std::int64_t>(x);
+  return x;
+}
+
+/// Starts count from the first.
+nlohmann::ordered_json phasesToJson(const std::vector<PhaseStats>& phases) {
+  double origin = std::numeric_limits<double>::infinity();
+  for (const auto& p : phases) origin = std::min(origin, p.start);
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& p : phases)
+    list.push_back({{"name", p.name}, {"start", p.start - origin}, {"seconds", p.seconds}});
+  return list;
+}
+
+}  // namespace
+
+nlohmann::ordered_json statsToJson(const Stats& s) {
+  nlohmann::ordered_json json;
+  json["scene"] = {{"file", s.scene.file},
+                   {"triangles", s.scene.triangles},
+                   {"droppedTriangles", s.scene.droppedTriangles},
+                   {"materials", s.scene.materials},
+                   {"lights", s.scene.lights},
+                   {"textures", s.scene.textures}};
+  json["settings"] = settingsToJson(s.settings);
+  json["settings"]["searchUsed"] = s.searchUsed;
+  json["device"] = {{"platform", s.device.platform},         {"name", s.device.name},
+                    {"version", s.device.version},           {"driver", s.device.driver},
+                    {"computeUnits", s.device.computeUnits}, {"threads", s.device.threads}};
+  json["features"]["used"] = s.featuresUsed;
+  json["features"]["kept"] = s.featuresKept;
+  json["features"]["leftOut"] = nlohmann::ordered_json::array();
+  for (const auto& [name, reason] : s.featuresLeftOut)
+    json["features"]["leftOut"].push_back({{"name", name}, {"reason", reason}});
+  json["features"]["trimmed"] = trimmedToJson(s.trimmed);
+  json["rays"] = {{"primary", s.rays.primary},
+                  {"impulse", s.rays.impulse},
+                  {"shadow", s.rays.shadow},
+                  {"total", s.rays.total()}};
+  json["time"] = {{"load", s.time.load},     {"build", s.time.build},   {"compile", s.time.compile},
+                  {"upload", s.time.upload}, {"render", s.time.render}, {"write", s.time.write},
+                  {"total", s.time.total}};
+  json["phases"] = phasesToJson(s.phases);
+  json["stages"] = stagesToJson(s.stages);
+  json["bounces"] = nlohmann::ordered_json::array();
+  for (const auto& b : s.bounces)
+    json["bounces"].push_back({{"bounce", b.bounce}, {"stages", stagesToJson(b.stages)}});
+  json["memory"] = memoryToJson(s.buffers);
+  json["error"] = nlohmann::ordered_json::array();
+  for (const auto& e : s.error)
+    json["error"].push_back(
+        {{"seconds", e.seconds},
+         {"raysPerPixel", wholeIfWhole(e.raysPerPixel)},
+         {"estimate",
+          e.raysPerPixel >= 2 ? nlohmann::ordered_json(e.estimate) : nlohmann::ordered_json(nullptr)},
+         {"rmse", e.rmse ? nlohmann::ordered_json(*e.rmse) : nlohmann::ordered_json(nullptr)},
+         {"mean", e.mean}});
+  json["samples"] = {
+      {"least", s.samples.least}, {"mean", wholeIfWhole(s.samples.mean)}, {"most", s.samples.most}};
+  json["cutOffThroughput"] = s.cutOffThroughput;
+  json["biasBound"] =
+      std::isfinite(s.biasBound) ? nlohmann::ordered_json(s.biasBound) : nlohmann::ordered_json(nullptr);
+  json["meanRadiance"] = s.meanRadiance;
+  json["nonFinite"] = s.nonFinite;
+  json["dropped"] = s.dropped;
+  return json;
+}
+
+}  // namespace whittle

@@ -1,0 +1,297 @@
+// Scene → device structs → buffers. Layouts: kernels/shared/layout.h.
+#include "wavefront/device_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <string>
+#include <unordered_map>
+
+#include "kernels/shared/layout.h"
+
+namespace whittle {
+namespace {
+
+static_assert(sizeof(device::Node) == sizeof(TreeNode));
+static_assert(sizeof(device::DeviceTriangle) == 48);
+static_assert(sizeof(device::DeviceLight) == 64);
+static_assert(sizeof(device::DeviceTexture) == 52);
+static_assert(sizeof(device::DeviceMaterial) == 112);
+static_assert(sizeof(device::DeviceCamera) == 128);
+
+/// Texture slots and texels of the images they use, shared where two slots are the same or read the same
+/// image.
+class TextureAtlas {
+ public:
+  TextureAtlas(const Scene& scene, const SceneUse& use) : scene_(scene), use_(use) {}
+
+  /// Index of the slot on the device, -1 for an empty one.
+  int add(const TextureSlot& slot) {
+    if (!slot.used()) return -1;
+    const Image& image = imageOf(slot.image);
+    device::DeviceTexture t{};
+    std::copy(slot.transform.begin(), slot.transform.end(), t.transform);
+    t.firstTexel = firstTexel(slot.image);
+    t.width = image.width;
+    t.height = image.height;
+    t.wrapS = static_cast<std::uint32_t>(slot.wrapS);
+    t.wrapT = static_cast<std::uint32_t>(slot.wrapT);
+    t.nearest = slot.filter == Filter::Nearest;
+    t.uvSet = static_cast<std::uint32_t>(slot.uvSet);
+    return indexOf(t);
+  }
+
+  std::vector<device::DeviceTexture> slots;
+  std::vector<std::uint32_t> texels;
+
+ private:
+  const Image& imageOf(int index) const {
+    return scene_.images[use_.images[static_cast<std::size_t>(index)]];
+  }
+
+  int indexOf(const device::DeviceTexture& t) {
+    const std::string bits(reinterpret_cast<const char*>(&t), sizeof(t));
+    const auto [at, isNew] = known_.try_emplace(bits, static_cast<int>(slots.size()));
+    if (!isNew && use_.sharesSlots) return at->second;
+    slots.push_back(t);
+    return static_cast<int>(slots.size()) - 1;
+  }
+
+  std::uint32_t firstTexel(int index) {
+    const auto [at, isNew] = first_.try_emplace(index, static_cast<std::uint32_t>(texels.size()));
+    if (isNew) {
+      const auto& bytes = imageOf(index).texels;
+      const std::size_t begin = texels.size();
+      texels.resize(begin + bytes.size() / 4);
+      std::memcpy(texels.data() + begin, bytes.data(), bytes.size() / 4 * 4);
+    }
+    return at->second;
+  }
+
+  const Scene& scene_;
+  const SceneUse& use_;
+  std::map<int, std::uint32_t> first_;          ///< texel, by image
+  std::unordered_map<std::string, int> known_;  ///< slots by their bits
+};
+
+static_assert(static_cast<int>(Wrap::Repeat) == WRAP_REPEAT && static_cast<int>(Wrap::Clamp) == WRAP_CLAMP &&
+              static_cast<int>(Wrap::Mirror) == WRAP_MIRROR);
+static_assert(static_cast<int>(LightKind::Point) == LIGHT_POINT &&
+              static_cast<int>(LightKind::Directional) == LIGHT_DIRECTIONAL &&
+              static_cast<int>(LightKind::Spot) == LIGHT_SPOT);
+
+void copy3(float* out, const glm::vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+
+device::DeviceMaterial toDevice(const Material& m, TextureAtlas& atlas) {
+  device::DeviceMaterial d{};
+  for (int k = 0; k < 4; ++k) d.baseColor[k] = m.baseColor[k];
+  copy3(d.emission, m.emission);
+  copy3(d.sigma_a, m.volume ? m.sigma_a : glm::vec3(0.0F));
+  copy3(d.specularColor, m.specularColor);
+  d.metallic = m.metallic;
+  d.roughness = m.roughness;
+  d.specular = m.specular;
+  d.transmission = m.transmission;
+  d.ior = m.ior;
+  d.alphaCutoff = m.alphaCutoff;
+  d.normalScale = m.normalScale;
+  d.flags = (m.unlit ? MATERIAL_UNLIT : 0U) | (m.volume ? MATERIAL_VOLUME : 0U) |
+            (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0U) |
+            (m.alphaMode == AlphaMode::Mask ? MATERIAL_MASK : 0U) |
+            (m.alphaMode == AlphaMode::Blend ? MATERIAL_BLEND : 0U);
+  d.baseColorTexture = atlas.add(m.baseColorTexture);
+  d.metallicRoughnessTexture = atlas.add(m.metallicRoughnessTexture);
+  d.normalTexture = atlas.add(m.normalTexture);
+  d.emissionTexture = atlas.add(m.emissionTexture);
+  d.specularTexture = atlas.add(m.specularTexture);
+  d.specularColorTexture = atlas.add(m.specularColorTexture);
+  d.transmissionTexture = atlas.add(m.transmissionTexture);
+  return d;
+}
+
+std::uint32_t triangleFlags(const Material& m) {
+  const bool filters = m.alphaMode == AlphaMode::Blend || (!m.unlit && m.transmission > 0.0F);
+  return (m.alphaMode == AlphaMode::Mask ? TRIANGLE_MASKED : 0U) | (filters ? TRIANGLE_FILTERS : 0U);
+}
+
+/// False for corners on one line, by the differences that the kernels see; products of two floats are exact
+/// in double.
+bool hasArea(const glm::vec3& p0, const glm::vec3& p1, const glm::vec3& p2) {
+  const glm::dvec3 a(p1 - p0), b(p2 - p0);
+  return a.y * b.z != a.z * b.y || a.z * b.x != a.x * b.z || a.x * b.y != a.y * b.x;
+}
+
+/// Corners of every triangle. Rounding could open a triangle without area in the plane across a ray: as a
+/// point nothing hits it.
+std::vector<glm::uvec3> hittableCorners(const Scene& scene) {
+  std::vector<glm::uvec3> corners;
+  corners.reserve(scene.triangles.size());
+  for (const Triangle& t : scene.triangles)
+    corners.push_back(hasArea(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2])
+                          ? glm::uvec3(t.v0, t.v1, t.v2)
+                          : glm::uvec3(t.v0));
+  return corners;
+}
+
+/// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
+std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene, const SceneUse& use,
+                                                  const std::vector<glm::uvec3>& corners,
+                                                  const std::vector<std::uint32_t>& order) {
+  std::vector<device::DeviceTriangle> out(order.size() + 1);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::uint32_t material = use.materialOf[scene.triangles[order[i]].material];
+    for (int k = 0; k < 3; ++k) copy3(out[i].v[k], scene.positions[corners[order[i]][k]]);
+    out[i].primitive = order[i];
+    out[i].material = material;
+    out[i].flags = triangleFlags(use.materials[material]);
+  }
+  out.back().primitive = 0xffffffffU;
+  return out;
+}
+
+std::vector<TreeNode> withSentinels(const TriTree& tree) {
+  std::vector<TreeNode> nodes = tree.nodes;
+  const auto sentinel = ~static_cast<std::int32_t>(tree.order.size() << 4);
+  for (auto& node : nodes)
+    for (int c = 0; c < 2; ++c)
+      if (!(node.lo[c][0] <= node.hi[c][0])) node.child[c] = sentinel;
+  return nodes;
+}
+
+std::vector<float> srgbTable() {
+  std::vector<float> table(256);
+  for (int i = 0; i < 256; ++i) {
+    const double s = i / 255.0;
+    table[static_cast<std::size_t>(i)] =
+        static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+  }
+  return table;
+}
+
+std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const SceneUse& use) {
+  std::vector<device::DeviceLight> out;
+  const auto versine = [](double angle) {
+    const double s = std::sin(0.5 * angle);
+    return static_cast<float>(2.0 * s * s);
+  };
+  for (const std::uint32_t i : use.lights) {
+    const Light& l = scene.lights[i];
+    device::DeviceLight d{};
+    copy3(d.intensity, l.intensity);
+    copy3(d.position, l.position);
+    copy3(d.direction, l.direction);
+    d.kind = static_cast<std::uint32_t>(l.kind);
+    d.range = l.range;
+    d.castsShadows = l.castsShadows;
+    d.versineOuter = versine(l.outerConeAngle);
+    d.versineInner = versine(l.innerConeAngle);
+    out.push_back(d);
+  }
+  return out;
+}
+
+/// An attribute of the vertices that are used, in their order on the device. One that is kept though the
+/// scene has none is 0 everywhere, which is as good as none: a renderer that leaves nothing out has one form
+/// of vertex.
+template <typename T>
+Buffer uploadVertices(Compute& compute, const std::string& name, const std::vector<T>& all,
+                      const SceneUse& use) {
+  if (all.empty()) return compute.upload(name, std::vector<T>(use.vertexCount, T(0)));
+  if (use.vertexOf.empty()) return compute.upload(name, all);
+  std::vector<T> used(use.vertexCount);
+  for (std::size_t v = 0; v < all.size(); ++v)
+    if (use.vertexOf[v] != kNotUsed) used[use.vertexOf[v]] = all[v];
+  return compute.upload(name, used);
+}
+
+/// Vertices of every triangle in leaf order, and of the degenerate one.
+std::vector<std::uint32_t> cornersOnDevice(const Scene& scene, const SceneUse& use,
+                                           const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> corners;
+  corners.reserve(order.size() * 3 + 3);
+  for (const std::uint32_t i : order) {
+    const Triangle& t = scene.triangles[i];
+    corners.insert(corners.end(), {t.v0, t.v1, t.v2});
+  }
+  if (!use.vertexOf.empty())
+    for (std::uint32_t& v : corners) v = use.vertexOf[v];
+  corners.resize(corners.size() + 3);
+  return corners;
+}
+
+/// Two in a word, the first in its low half.
+std::vector<std::uint32_t> packedCorners(const std::vector<std::uint32_t>& corners) {
+  std::vector<std::uint32_t> words((corners.size() + 1) / 2);
+  for (std::size_t i = 0; i < corners.size(); ++i) words[i / 2] |= corners[i] << (i % 2 * 16);
+  return words;
+}
+
+std::string groupOf(const std::string& name) {
+  if (name == "nodes" || name == "wideNodes" || name == "leaves") return "tree";
+  if (name == "textures" || name == "texels" || name == "linearFromSrgb" || name == "background")
+    return "textures";
+  return "triangles";
+}
+
+}  // namespace
+
+void DeviceScene::report(std::vector<BufferStats>& out) const {
+  for (const Buffer* b : buffers())
+    if (*b) out.push_back({b->name, groupOf(b->name), b->bytes});
+}
+
+DeviceScene uploadScene(Compute& compute, const Scene& scene, const SceneUse& use, const TriTree& tree,
+                        const SceneFeatures& features) {
+  DeviceScene d;
+  d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
+  const std::vector<glm::uvec3> hittable = hittableCorners(scene);
+  if (features.has(Feature::TREE) && !features.has(Feature::PACKETS))
+    d.nodes = compute.upload("nodes", withSentinels(tree));
+  if (features.has(Feature::TREE) && features.has(Feature::PACKETS)) {
+    const WideTree wide = buildWideTree(tree, scene.positions, hittable);
+    if (wide.depth > WIDE_DEPTH)
+      throw ClError(fmt::format("the eight-wide tree is {} nodes deep, the kernels have room for {}",
+                                wide.depth, WIDE_DEPTH));
+    d.wideNodes = compute.upload("wideNodes", wide.nodes);
+    d.leaves = compute.upload("leaves", wide.corners);
+  }
+  d.triangles = compute.upload("triangles", leafTriangles(scene, use, hittable, tree.order));
+  const bool interpolates = features.has(Feature::VERTEX_NORMALS) || features.has(Feature::TEXTURES) ||
+                            features.has(Feature::VERTEX_COLORS);
+  if (interpolates) {
+    const auto corners = cornersOnDevice(scene, use, tree.order);
+    if (use.narrowCorners)
+      d.corners = compute.upload("corners", packedCorners(corners));
+    else
+      d.wideCorners = compute.upload("corners", corners);
+  }
+  if (features.has(Feature::VERTEX_NORMALS))
+    d.normals = uploadVertices(compute, "normals", scene.normals, use);
+  if (features.has(Feature::NORMAL_TEXTURE))
+    d.tangents = uploadVertices(compute, "tangents", scene.tangents, use);
+  if (features.has(Feature::UV0)) d.uv0 = uploadVertices(compute, "uv0", scene.uv0, use);
+  if (features.has(Feature::UV1)) d.uv1 = uploadVertices(compute, "uv1", scene.uv1, use);
+  if (features.has(Feature::VERTEX_COLORS))
+    d.colors = scene.colors.empty() ? Buffer{} : uploadVertices(compute, "colors", scene.colors, use);
+  TextureAtlas atlas(scene, use);
+  std::vector<device::DeviceMaterial> materials;
+  for (const auto& m : use.materials) materials.push_back(toDevice(m, atlas));
+  if (materials.empty()) materials.push_back(toDevice(Material{}, atlas));
+  d.materials = compute.upload("materials", materials);
+  if (features.has(Feature::TEXTURES)) {
+    d.textures = compute.upload("textures", atlas.slots);
+    d.texels = compute.upload("texels", atlas.texels);
+    d.linearFromSrgb = compute.upload("linearFromSrgb", srgbTable());
+  }
+  const auto lights = lightsToDevice(scene, use);
+  d.lightCount = static_cast<std::uint32_t>(lights.size());
+  d.lights = compute.upload("lights", lights);
+  if (features.has(Feature::BACKGROUND_MAP))
+    d.background = compute.upload("background", scene.background.map);
+  return d;
+}
+
+}  // namespace whittle

@@ -1,0 +1,124 @@
+// Queue memory and the cutting of queues into segments.
+#include "wavefront/ray_queues.h"
+
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+
+#include "kernels/shared/layout.h"
+
+namespace whittle {
+namespace {
+
+/// As kernels/shade.cl does.
+bool asksForDistances(const SceneFeatures& features) {
+  return features.has(Feature::TEXTURES) || features.has(Feature::ABSORPTION) || features.has(Feature::AOVS);
+}
+
+}  // namespace
+
+RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity,
+                     std::uint32_t compactChunk)
+    : compute_(compute),
+      capacity_(capacity),
+      segmentLimit_(features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity),
+      rayPlanes_(features.has(Feature::IMPULSES) ? RAY_PLANES : EYE_RAY_PLANES),
+      hitPlanes_(asksForDistances(features) ? HIT_PLANES : HIT_PLANES_WITHOUT_T) {
+  // A packet reads up to fifteen entries past its segment (into the next plane, or the padding) and ignores
+  // them. It writes whole packets from entry 0, which stay inside a plane because the capacity is a multiple.
+  assert(capacity % PACKET_RAYS == 0);
+  const auto planes = [&](const char* name, std::size_t count) {
+    return compute.allocate(name, (count * capacity + QUEUE_PADDING) * sizeof(float));
+  };
+  const bool shadowRays = features.has(Feature::SHADOWS);
+  const bool impulseRays = features.has(Feature::IMPULSES);
+  hits = planes("hits", hitPlanes_);
+  sampleRadiance = planes("sampleRadiance", 3);
+  if (shadowRays) shadows = planes("shadows", SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
+  const std::size_t impulsesOfHit = features.has(Feature::BOTH_BRANCHES) ? 2 : 1;
+  if (impulseRays)
+    impulses = planes("impulses", impulsesOfHit * IMPULSE_PLANES), entryRadiance = planes("entryRadiance", 3);
+  if (shadowRays || impulseRays) {
+    const bool cutOff = features.has(Feature::CUTOFF);
+    flagBytes_ = cutOff ? sizeof(std::uint32_t) : sizeof(std::uint8_t);  // EntryFlags, lib/entry_flags.cl
+    flags = compute.allocate("flags", (std::size_t{capacity} + QUEUE_PADDING) * flagBytes_);
+    totals =
+        compute.allocate("totals", (cutOff ? 3 : 2) * (capacity / compactChunk + 1) * sizeof(std::uint32_t));
+    sums = compute.allocate("sums", (cutOff ? 4 : 2) * sizeof(std::uint32_t));
+  }
+}
+
+Buffer RayQueues::acquire() {
+  if (free_.empty()) {
+    ++queuesMade_;
+    return compute_.allocate(
+        "rays", (static_cast<std::size_t>(rayPlanes_) * capacity_ + QUEUE_PADDING) * sizeof(float));
+  }
+  Buffer queue = std::move(free_.back());
+  free_.pop_back();
+  return queue;
+}
+
+void RayQueues::reserve(std::size_t count) {
+  std::vector<Buffer> taken;
+  while (taken.size() < count) taken.push_back(acquire());
+  for (auto& queue : taken) release(std::move(queue));
+}
+
+std::vector<std::uint32_t> RayQueues::readSlots(const Buffer& queue, std::uint32_t begin,
+                                                std::uint32_t count) const {
+  std::vector<std::uint32_t> slots(count);
+  const std::size_t offset = (static_cast<std::size_t>(RAY_SLOT) * capacity_ + begin) * sizeof(std::uint32_t);
+  compute_.read(queue, offset, count * sizeof(std::uint32_t), slots.data());
+  return slots;
+}
+
+std::vector<Segment> RayQueues::cut(const Buffer& queue, std::uint32_t count, bool mayHaveLongRuns) const {
+  if (mayHaveLongRuns) return cutLongRuns(readSlots(queue, 0, count));
+  std::vector<Segment> segments;
+  std::uint32_t begin = 0;
+  while (count - begin > segmentLimit_) {
+    // The last sample boundary at or before the limit: no run is longer than LONG_RUN here.
+    const std::uint32_t end = begin + segmentLimit_;
+    const std::uint32_t window = std::min<std::uint32_t>(LONG_RUN + 1, segmentLimit_);
+    const auto slots = readSlots(queue, end - window, window + 1);
+    std::uint32_t at = window;
+    while (at > 0 && slots[at] == slots[at - 1]) --at;
+    if (at == 0) throw std::logic_error("a ray queue holds a longer run of one sample than was reported");
+    segments.push_back({begin, end - window + at});
+    begin = segments.back().end;
+  }
+  segments.push_back({begin, count});
+  return segments;
+}
+
+std::vector<Segment> RayQueues::cutLongRuns(const std::vector<std::uint32_t>& slots) const {
+  const auto count = static_cast<std::uint32_t>(slots.size());
+  std::vector<Segment> segments;
+  std::uint32_t begin = 0;  // of the segment being filled
+  for (std::uint32_t run = 0; run < count;) {
+    std::uint32_t runEnd = run + 1;
+    while (runEnd < count && slots[runEnd] == slots[run]) ++runEnd;
+    const bool isLong = runEnd - run > LONG_RUN;
+    if (begin < run && (isLong || runEnd - begin > segmentLimit_)) {
+      segments.push_back({begin, run});
+      begin = run;
+    }
+    if (isLong) {
+      for (; begin < runEnd; begin = segments.back().end)
+        segments.push_back({begin, std::min(begin + LONG_RUN, runEnd)});
+    }
+    run = runEnd;
+  }
+  if (begin < count) segments.push_back({begin, count});
+  return segments;
+}
+
+void RayQueues::report(std::vector<BufferStats>& out) const {
+  for (const Buffer* b :
+       {&hits, &entryRadiance, &sampleRadiance, &shadows, &shadowQueue, &impulses, &flags, &totals, &sums})
+    if (*b) out.push_back({b->name, "queues", b->bytes});
+  if (!free_.empty()) out.push_back({"rays", "queues", free_.front().bytes * queuesMade_});
+}
+
+}  // namespace whittle

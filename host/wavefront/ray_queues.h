@@ -1,0 +1,63 @@
+// The buffers of rays in flight: a pool of ray queues of one capacity, and the work space of one segment.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analysis/scene_features.h"
+#include "cl/program.h"
+#include "report/stats.h"
+
+namespace whittle {
+
+/// Entries [begin, end) of a ray queue that are traced together.
+struct Segment {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+  std::uint32_t count() const { return end - begin; }
+};
+
+class RayQueues {
+ public:
+  /// Allocates what the features need for `capacity` entries; ray queues themselves come on demand.
+  RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity,
+            std::uint32_t compactChunk);
+
+  std::uint32_t capacity() const { return capacity_; }
+  /// Entries a segment may have: half the capacity where a hit can send out two impulses.
+  std::uint32_t segmentLimit() const { return segmentLimit_; }
+  /// Without distances where nothing asks for them.
+  std::uint32_t hitPlanes() const { return hitPlanes_; }
+  std::size_t hitBytes() const { return hitPlanes_ * sizeof(float); }
+  /// Of one entry's flags; 0 where nothing is found that has to be compacted.
+  std::size_t flagBytes() const { return flagBytes_; }
+
+  /// A free ray queue; give it back with release. Queues are kept and reused.
+  Buffer acquire();
+  void release(Buffer queue) { free_.push_back(std::move(queue)); }
+  /// Makes sure that `count` ray queues are there.
+  void reserve(std::size_t count);
+
+  /// Splits [0, count) of `queue` into segments that the next queue can hold, never inside a sample, unless
+  /// the sample is longer than LONG_RUN: such a one is always sliced alike, whatever the capacity.
+  std::vector<Segment> cut(const Buffer& queue, std::uint32_t count, bool mayHaveLongRuns) const;
+
+  void report(std::vector<BufferStats>& out) const;
+
+  Buffer hits, entryRadiance, sampleRadiance, shadows, shadowQueue, impulses, flags, totals, sums;
+
+ private:
+  std::vector<std::uint32_t> readSlots(const Buffer& queue, std::uint32_t begin, std::uint32_t count) const;
+  std::vector<Segment> cutLongRuns(const std::vector<std::uint32_t>& slots) const;
+
+  Compute& compute_;
+  std::uint32_t capacity_;
+  std::uint32_t segmentLimit_;
+  std::uint32_t rayPlanes_;  ///< of a ray queue
+  std::uint32_t hitPlanes_;
+  std::size_t flagBytes_ = 0;
+  std::vector<Buffer> free_;
+  std::uint64_t queuesMade_ = 0;
+};
+
+}  // namespace whittle

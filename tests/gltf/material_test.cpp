@@ -1,0 +1,281 @@
+// Materials, their extensions, textures, samplers and tangents.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "gltf/builder.h"
+#include "image/image_io.h"
+
+namespace whittle {
+namespace {
+
+using test::expectNear;
+using test::GltfBuilder;
+using test::Json;
+using test::mentions;
+
+/// A 2×1 picture, red and green, encoded with the library's own writer.
+std::string pngBytes() {
+  const test::TemporaryFolder folder;
+  const std::vector<std::uint8_t> rgb{255, 0, 0, 0, 255, 0};
+  writeRgb8(folder.path() / "a.png", 2, 1, rgb, {});
+  std::ifstream stream(folder.path() / "a.png", std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// One triangle with both sets of coordinates, material 0, texture 0 of the picture above.
+GltfBuilder textured(const Json& material) {
+  GltfBuilder b;
+  const std::string png = pngBytes();
+  const int view = b.view(std::vector<char>(png.begin(), png.end()));
+  b.push("images", {{"bufferView", view}, {"mimeType", "image/png"}});
+  b.push("textures", {{"source", 0}});
+  b.material(material);
+  b.node({{"mesh", b.triangleMesh({{"material", 0},
+                                   {"attributes",
+                                    {{"TEXCOORD_0", b.vec2({0, 1, 1, 1, 0, 0})},
+                                     {"TEXCOORD_1", b.vec2({0.5F, 0.5F, 1, 1, 0, 0})},
+                                     {"NORMAL", b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1})}}}})}});
+  return b;
+}
+
+Material materialOf(const Json& json) {
+  GltfBuilder b;
+  b.material(json);
+  b.node({{"mesh", b.triangleMesh({{"material", 0}})}});
+  const Scene scene = b.load();
+  EXPECT_TRUE(b.notices.warnings.empty());
+  return scene.materials.at(0);
+}
+
+TEST(GltfMaterial, DefaultsOfTheSpecification) {
+  const Material m = materialOf(Json::object());
+  EXPECT_EQ(m.baseColor, glm::vec4(1));
+  EXPECT_EQ(m.metallic, 1.0F);
+  EXPECT_EQ(m.roughness, 1.0F);
+  EXPECT_EQ(m.emission, glm::vec3(0));
+  EXPECT_EQ(m.ior, 1.5F);
+  EXPECT_EQ(m.transmission, 0.0F);
+  EXPECT_EQ(m.specular, 1.0F);
+  EXPECT_EQ(m.alphaMode, AlphaMode::Opaque);
+  EXPECT_EQ(m.alphaCutoff, 0.5F);
+  EXPECT_FALSE(m.doubleSided || m.unlit || m.volume);
+}
+
+TEST(GltfMaterial, CoreFactors) {
+  const Material m = materialOf(
+      {{"name", "paint"},
+       {"alphaMode", "MASK"},
+       {"alphaCutoff", 0.25},
+       {"doubleSided", true},
+       {"emissiveFactor", {1, 0.5, 0}},
+       {"pbrMetallicRoughness",
+        {{"baseColorFactor", {0.5, 0.25, 0.125, 0.75}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.25}}},
+       {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}}}});
+  EXPECT_EQ(m.name, "paint");
+  EXPECT_EQ(m.alphaMode, AlphaMode::Mask);
+  EXPECT_EQ(m.alphaCutoff, 0.25F);
+  EXPECT_TRUE(m.doubleSided);
+  expectNear(m.emission, {8, 4, 0}, 0);
+  EXPECT_EQ(m.baseColor, glm::vec4(0.5F, 0.25F, 0.125F, 0.75F));
+  EXPECT_EQ(m.metallic, 0.5F);
+  EXPECT_EQ(m.roughness, 0.25F);
+}
+
+TEST(GltfMaterial, ExtensionFactors) {
+  const Material m = materialOf(
+      {{"extensions",
+        {{"KHR_materials_ior", {{"ior", 0}}},
+         {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}},
+         {"KHR_materials_specular", {{"specularFactor", 0.25}, {"specularColorFactor", {1, 2, 3}}}},
+         {"KHR_materials_unlit", Json::object()}}}});
+  EXPECT_EQ(m.ior, 0.0F);
+  EXPECT_EQ(m.transmission, 0.5F);
+  EXPECT_EQ(m.specular, 0.25F);
+  expectNear(m.specularColor, {1, 2, 3}, 0);
+  EXPECT_TRUE(m.unlit);
+}
+
+TEST(GltfMaterial, AbsorptionOfVolumes) {
+  const auto volume = [](Json v) {
+    return materialOf({{"extensions", {{"KHR_materials_volume", std::move(v)}}}});
+  };
+  const Material coloured =
+      volume({{"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", {0.25, 1, 0}}});
+  EXPECT_TRUE(coloured.volume);
+  EXPECT_NEAR(coloured.sigma_a.r, std::numbers::ln2, 1e-7);  // -ln(1/4)/2 = ln 2
+  EXPECT_EQ(coloured.sigma_a.g, 0.0F);
+  EXPECT_TRUE(std::isinf(coloured.sigma_a.b) && coloured.sigma_a.b > 0);
+  const Material clear = volume({{"thicknessFactor", 1}, {"attenuationColor", {0.25, 1, 0}}});
+  EXPECT_TRUE(clear.volume);
+  EXPECT_EQ(clear.sigma_a, glm::vec3(0)) << "an infinite distance absorbs nothing";
+  EXPECT_FALSE(volume({{"attenuationDistance", 2}, {"attenuationColor", {0.25, 1, 0}}}).volume) << "thin";
+}
+
+TEST(GltfMaterial, SlotsAndSamplers) {
+  GltfBuilder b = textured({{"pbrMetallicRoughness",
+                             {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}},
+                              {"metallicRoughnessTexture", {{"index", 0}}}}},
+                            {"emissiveTexture", {{"index", 1}}},
+                            {"occlusionTexture", {{"index", 0}, {"strength", 0.5}}}});
+  b.push("samplers", {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
+  b.push("textures", {{"source", 0}, {"sampler", 0}});
+  const Scene scene = b.load();
+  const Material& m = scene.materials.at(0);
+  ASSERT_EQ(scene.images.size(), 1U) << "decoded once, shared";
+  EXPECT_EQ(scene.images[0].width, 2);
+  EXPECT_EQ(scene.images[0].height, 1);
+  EXPECT_EQ(scene.images[0].texels, (std::vector<std::uint8_t>{255, 0, 0, 255, 0, 255, 0, 255}));
+  EXPECT_EQ(m.baseColorTexture.image, 0);
+  EXPECT_EQ(m.baseColorTexture.uvSet, 1);
+  EXPECT_EQ(m.baseColorTexture.wrapS, Wrap::Repeat);
+  EXPECT_EQ(m.baseColorTexture.filter, Filter::Linear);
+  EXPECT_EQ(m.metallicRoughnessTexture.uvSet, 0);
+  EXPECT_EQ(m.emissionTexture.wrapS, Wrap::Clamp);
+  EXPECT_EQ(m.emissionTexture.wrapT, Wrap::Mirror);
+  EXPECT_EQ(m.emissionTexture.filter, Filter::Nearest);
+  EXPECT_EQ(m.occlusionStrength, 0.5F);
+  EXPECT_FALSE(m.normalTexture.used());
+  ASSERT_EQ(scene.uv1.size(), 3U);
+  EXPECT_EQ(scene.uv1[0], glm::vec2(0.5F, 0.5F));
+  EXPECT_EQ(scene.uv0.size(), 3U);
+  EXPECT_TRUE(scene.tangents.empty());
+}
+
+TEST(GltfMaterial, TextureTransform) {
+  const double quarter = std::numbers::pi / 2;
+  GltfBuilder b = textured(
+      {{"pbrMetallicRoughness",
+        {{"baseColorTexture",
+          {{"index", 0},
+           {"extensions",
+            {{"KHR_texture_transform",
+              {{"offset", {0.5, 0.25}}, {"rotation", quarter}, {"scale", {2, 3}}, {"texCoord", 1}}}}}}}}}});
+  const Scene scene = b.load();
+  const TextureSlot& slot = scene.materials.at(0).baseColorTexture;
+  EXPECT_EQ(slot.uvSet, 1) << "the transform's own texCoord wins";
+  const auto apply = [&slot](float u, float v) {
+    const auto& t = slot.transform;
+    return glm::vec3(t[0] * u + t[1] * v + t[2], t[3] * u + t[4] * v + t[5], 0);
+  };
+  // Scale first; then a quarter turn counter-clockwise as seen with v downwards, u to -v and v to u; then the
+  // offset.
+  expectNear(apply(1, 0), {0.5F, 0.25F - 2, 0}, 1e-6F);
+  expectNear(apply(0, 1), {0.5F + 3, 0.25F, 0}, 1e-6F);
+  EXPECT_TRUE(scene.uv0.empty());
+  EXPECT_EQ(scene.uv1.size(), 3U);
+}
+
+TEST(GltfMaterial, TexturesThatCannotBeReadLeaveTheFactor) {
+  const Json material{
+      {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"baseColorFactor", {0.5, 1, 1, 1}}}}};
+  const auto loadWith = [&](auto&& change, const char* warning) {
+    GltfBuilder b = textured(material);
+    change(b.json);
+    const Scene scene = b.load();
+    EXPECT_FALSE(scene.materials.at(0).baseColorTexture.used());
+    EXPECT_EQ(scene.materials.at(0).baseColor.r, 0.5F);
+    EXPECT_TRUE(scene.uv0.empty());
+    EXPECT_EQ(b.notices.warnings.size(), 1U);
+    EXPECT_TRUE(mentions(b.notices.warnings, warning)) << b.notices.warnings.at(0);
+  };
+  loadWith([](Json& j) { j["images"][0] = {{"uri", "none.png"}}; }, "image 0");
+  loadWith([](Json& j) { j["images"][0] = {{"uri", "data:image/png;base64,AAAA"}}; }, "image 0");
+  loadWith([](Json& j) { j["images"][0] = {{"uri", "data:image/png;base64,*"}}; }, "cannot be decoded");
+  loadWith([](Json& j) { j["images"][0] = {{"uri", "http://example.org/a.png"}}; }, "local files only");
+  loadWith([](Json& j) { j["images"][0] = {{"name", "nothing"}}; }, "neither a uri nor a bufferView");
+  loadWith([](Json& j) { j["bufferViews"][0]["byteOffset"] = 1 << 30; }, "reaches beyond");
+  loadWith([](Json& j) { j["textures"][0] = Json::object(); }, "texture 0 has no image");
+  loadWith(
+      [](Json& j) {
+        j["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+      },
+      "KHR_texture_basisu");
+  loadWith([](Json& j) { j["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 2; },
+           "TEXCOORD_2");
+}
+
+TEST(GltfMaterial, ReferencesAreChecked) {
+  const auto errorWith = [](auto&& change) {
+    GltfBuilder b = textured({{"normalTexture", {{"index", 0}}}});
+    change(b.json);
+    return b.error();
+  };
+  EXPECT_NE(errorWith([](Json& j) {
+              j["materials"][0]["normalTexture"]["index"] = 1;
+            }).find("materials[0].normalTexture.index is 1, but there is 1 texture"),
+            std::string::npos);
+  EXPECT_NE(errorWith([](Json& j) { j["textures"][0]["source"] = 1; }).find("but there is 1 image"),
+            std::string::npos);
+  EXPECT_NE(errorWith([](Json& j) { j["textures"][0]["sampler"] = 0; }).find("but there are no samplers"),
+            std::string::npos);
+}
+
+TEST(GltfMaterial, OnlyWhatIsUsedIsLoaded) {
+  GltfBuilder b = textured({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+  b.push("images", {{"uri", "none.png"}});
+  b.push("textures", {{"source", 1}});
+  b.material({{"emissiveTexture", {{"index", 1}}}});
+  b.node({{"mesh", b.triangleMesh()}});
+  const Scene scene = b.load();
+  EXPECT_TRUE(b.notices.warnings.empty())
+      << "the image that is missing belongs to a material that nothing has";
+  ASSERT_EQ(scene.materials.size(), 2U);
+  EXPECT_EQ(scene.triangles.at(0).material, 0U);
+  EXPECT_EQ(scene.triangles.at(1).material, 1U) << "the default material";
+  EXPECT_EQ(scene.materials[1].baseColor, glm::vec4(1));
+}
+
+TEST(GltfTangents, AreGeneratedForAnUprightImage) {
+  GltfBuilder b = textured({{"normalTexture", {{"index", 0}, {"scale", 0.5}}}});
+  const Scene scene = b.load();
+  EXPECT_EQ(scene.materials.at(0).normalScale, 0.5F);
+  ASSERT_EQ(scene.tangents.size(), 3U);
+  // u grows along +X, v along -Y: the image stands upright, so that n × T = +Y is its up.
+  for (const glm::vec4& t : scene.tangents) EXPECT_EQ(t, glm::vec4(1, 0, 0, 1));
+}
+
+TEST(GltfTangents, FollowTheTextureTransform) {
+  GltfBuilder b = textured(
+      {{"normalTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {-1, 1}}}}}}}}});
+  for (const glm::vec4& t : b.load().tangents) EXPECT_EQ(t, glm::vec4(-1, 0, 0, -1));
+}
+
+TEST(GltfTangents, OfTheMeshAreKeptAndMirrored) {
+  GltfBuilder b = textured({{"normalTexture", {{"index", 0}}}});
+  b.json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] =
+      b.floats("VEC4", 4, {0, 2, 0, 1, 0, 2, 0, 1, 0, 2, 0, -1});
+  Scene scene = b.load();
+  ASSERT_EQ(scene.tangents.size(), 3U);
+  EXPECT_EQ(scene.tangents[0], glm::vec4(0, 1, 0, 1));
+  EXPECT_EQ(scene.tangents[2], glm::vec4(0, 1, 0, -1));
+  b.json["nodes"][0]["scale"] = {1, -1, 1};
+  scene = b.load();
+  // n stays +Z, T becomes -Y; the bitangent n × T · w was -X and must still be, the mirror leaves X alone.
+  EXPECT_EQ(scene.tangents[0], glm::vec4(0, -1, 0, -1));
+}
+
+TEST(GltfTangents, MirroredHalvesDoNotCancel) {
+  GltfBuilder b = textured({{"normalTexture", {{"index", 0}}}});
+  // Two triangles that share an edge on the Y axis; u grows away from it on both sides.
+  const int p = b.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0});
+  const int uv = b.vec2({0, 1, 1, 1, 0, 0, 1, 1});
+  const int n = b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+  b.json["meshes"][0]["primitives"][0] = {
+      {"attributes", {{"POSITION", p}, {"TEXCOORD_0", uv}, {"NORMAL", n}}},
+      {"indices", b.indices<std::uint8_t>({0, 1, 2, 0, 2, 3})},
+      {"material", 0}};
+  const Scene scene = b.load();
+  ASSERT_EQ(scene.triangles.size(), 2U);
+  const Triangle& right = scene.triangles[0];
+  const Triangle& left = scene.triangles[1];
+  for (const std::uint32_t v : {right.v0, right.v1, right.v2})
+    EXPECT_EQ(scene.tangents[v], glm::vec4(1, 0, 0, 1));
+  for (const std::uint32_t v : {left.v0, left.v1, left.v2})
+    EXPECT_EQ(scene.tangents[v], glm::vec4(-1, 0, 0, -1));
+  EXPECT_EQ(scene.positions.size(), 6U);
+}
+
+}  // namespace
+}  // namespace whittle

@@ -10,7 +10,7 @@ Writes e4_memory.tsv (a row for each scene); figure e4_memory.
 from lib import fit, style, table
 from lib.context import SCENES, size
 
-COLUMNS = ["scene", "kind", "triangles", "tree", "triangle_bytes", "wideNodes", "leaves", "twoWideNodes", "resident"]
+COLUMNS = ["scene", "kind", "triangles", "tree", "triangle_bytes", "bvh8Nodes", "leaves", "bvh2Nodes", "resident"]
 SHARED = ["bench/crytek-sponza/crytek-sponza.glb", "bench/teapot-full/teapot-full.glb",
           "bench/cornell-mcguire/CornellBox-Original.glb"]
 BENCHED = 200_000  # triangles; larger scenes need not be benched, as theirs are the same bytes for each triangle
@@ -26,7 +26,7 @@ def row(context, scene, name, kind, out):
         each = {k["kernel"]: k["nodeBytesPerTriangle"] for k in report["kernels"]}
         two = round(triangles * each["single2"])
     out.row(scene=name, kind=kind, triangles=triangles, tree=memory["tree"], triangle_bytes=memory["triangles"],
-            wideNodes=buffers.get("wideNodes", ""), leaves=buffers.get("leaves", ""), twoWideNodes=two,
+            bvh8Nodes=buffers.get("bvh8Nodes", ""), leaves=buffers.get("leaves", ""), bvh2Nodes=two,
             resident=memory["total"])
 
 
@@ -49,7 +49,7 @@ def measure(context):
 
 
 LINES = [("tree", "tree of the searches:\neight-wide nodes, leaves"), ("triangle_bytes", "triangle records"),
-         ("wideNodes", "eight-wide nodes alone"), ("twoWideNodes", "two-wide nodes\n(GPUs use these)")]
+         ("bvh8Nodes", "eight-wide nodes alone"), ("bvh2Nodes", "two-wide nodes\n(GPUs use these)")]
 
 
 def growth(x, y):

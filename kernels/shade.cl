@@ -4,7 +4,7 @@
 // shade_light: the shadow candidate of a further light, one round for each light, so that memory does not grow with them.
 #include "lib/background.cl"
 #include "lib/bsdf.cl"
-#include "lib/bump.cl"
+#include "lib/ray_offset.cl"
 #include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
 #include "lib/light.cl"
@@ -102,7 +102,7 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
   const Real3 carried = mul3(contribution, attenuation);
 #if HAS(SHADOWS)
   if (light->castsShadows) {
-    storeReal3(shadows, capacity, SHADOW_O, i, bumpedOrigin(constants, s, arriving.w_i));
+    storeReal3(shadows, capacity, SHADOW_O, i, offsetOrigin(constants, s, arriving.w_i));
     storeReal3(shadows, capacity, SHADOW_D, i, arriving.w_i);
     STORE(shadowLength(constants, s, arriving.distance), shadows + (size_t)SHADOW_LENGTH * capacity + i);
     storeReal3(shadows, capacity, SHADOW_CONTRIBUTION, i, carried);
@@ -139,7 +139,7 @@ INLINE Natural storeImpulse(const RenderConstants* constants, const Surfel* s, c
 #endif
   if (!some(sent)) return cut;
   const uint base = k * IMPULSE_PLANES;
-  storeReal3(impulses, capacity, base + IMPULSE_O, i, bumpedOrigin(constants, s, impulse->w_i));
+  storeReal3(impulses, capacity, base + IMPULSE_O, i, offsetOrigin(constants, s, impulse->w_i));
   storeReal3(impulses, capacity, base + IMPULSE_D, i, impulse->w_i);
   storeReal3(impulses, capacity, base + IMPULSE_THROUGHPUT, i, carried);
   return cut + (sent ? (Natural)(ENTRY_IMPULSE0 << k) : (Natural)(0));

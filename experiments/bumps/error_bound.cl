@@ -3,8 +3,8 @@
 // hits within the error bound of their distance (6.8.7); ours do not.
 #include "lib/surfels.cl"
 
-INLINE Real bumpAt(const RenderConstants* constants, const Surfel* s) {
-#if HAS(FIXED_BUMP)
+INLINE Real rayOffsetAt(const RenderConstants* constants, const Surfel* s) {
+#if HAS(FIXED_RAY_OFFSET)
   if (!(constants->bump < 0.0f)) return (Real)(constants->bump);
 #endif
   const Real3 size = real3(fabs(s->n_g.x), fabs(s->n_g.y), fabs(s->n_g.z));
@@ -19,15 +19,15 @@ INLINE Real roundedAway(Real x, Real offset) {
   return offset == 0.0f ? x : next;
 }
 
-INLINE Real3 bumpedOrigin(const RenderConstants* constants, const Surfel* s, Real3 w_i) {
-  const Real bump = bumpAt(constants, s);
+INLINE Real3 offsetOrigin(const RenderConstants* constants, const Surfel* s, Real3 w_i) {
+  const Real bump = rayOffsetAt(constants, s);
   const Real3 offset = scale3(dots(s->n_g, w_i) > 0.0f ? bump : -bump, s->n_g);
   const Real3 o = add3(s->position, offset);
   return real3(roundedAway(o.x, offset.x), roundedAway(o.y, offset.y), roundedAway(o.z, offset.z));
 }
 
 INLINE Real shadowLength(const RenderConstants* constants, const Surfel* s, Real distance) {
-  const Real free = distance - 2.0f * bumpAt(constants, s);
+  const Real free = distance - 2.0f * rayOffsetAt(constants, s);
   const Real length = distance < INFINITY ? free : (Real)(MAXFLOAT);
   return length > 0.0f ? length : (Real)(0.0f);
 }

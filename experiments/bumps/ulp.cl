@@ -3,7 +3,7 @@
 #include "lib/surfels.cl"
 
 /// What shadow rays are shortened by: the most that the offset is, 256 ulp of the largest coordinate.
-INLINE Real bumpAt(const RenderConstants* constants, const Surfel* s) {
+INLINE Real rayOffsetAt(const RenderConstants* constants, const Surfel* s) {
   const Real most = largestOf(s->extent.x, s->extent.y, s->extent.z) * 3.0517578125e-5f;  // 2^-15
   return most > 1.0f / 65536.0f ? most : (Real)(1.0f / 65536.0f);
 }
@@ -14,13 +14,13 @@ INLINE Real offsetBy(Real p, Real n) {
   return fabs(p) < 1.0f / 32.0f ? p + n / 65536.0f : moved;
 }
 
-INLINE Real3 bumpedOrigin(const RenderConstants* constants, const Surfel* s, Real3 w_i) {
+INLINE Real3 offsetOrigin(const RenderConstants* constants, const Surfel* s, Real3 w_i) {
   const Real3 n = choose3(dots(s->n_g, w_i) > 0.0f, s->n_g, minus3(s->n_g));
   return real3(offsetBy(s->position.x, n.x), offsetBy(s->position.y, n.y), offsetBy(s->position.z, n.z));
 }
 
 INLINE Real shadowLength(const RenderConstants* constants, const Surfel* s, Real distance) {
-  const Real free = distance - 2.0f * bumpAt(constants, s);
+  const Real free = distance - 2.0f * rayOffsetAt(constants, s);
   const Real length = distance < INFINITY ? free : (Real)(MAXFLOAT);
   return length > 0.0f ? length : (Real)(0.0f);
 }

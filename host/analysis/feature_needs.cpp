@@ -69,7 +69,7 @@ const std::vector<FeatureNeed>& featureNeeds() {
       {F::BOTH_BRANCHES, {F::IMPULSES}},
       {F::ONE_IMPULSE, {F::IMPULSES}},
       {F::CUTOFF, {F::IMPULSES}},
-      {F::FIXED_BUMP, {F::SHADOWS, F::IMPULSES}},
+      {F::FIXED_RAY_OFFSET, {F::SHADOWS, F::IMPULSES}},
       // A texture is read by a slot, at coordinates.
       {F::TEXTURES,
        {F::BASE_COLOR_TEXTURE, F::METALLIC_ROUGHNESS_TEXTURE, F::NORMAL_TEXTURE, F::EMISSION_TEXTURE,
@@ -97,22 +97,22 @@ const std::vector<FeatureNeed>& featureNeeds() {
   return needs;
 }
 
-KeptFeatures keptFeatures(const Settings& settings, std::uint64_t used) {
-  KeptFeatures kept;
+ForcedFeatures forcedFeatures(const Settings& settings, std::uint64_t used) {
+  ForcedFeatures forced;
   const auto barred = barredFeatures(settings);
   for (const Feature f : allFeatures())
-    if (!barred.contains(f)) kept.bits |= bitOf(f) & settings.keepFeatures & ~used;
-  for (std::uint64_t before = 0; before != kept.bits;) {
-    before = kept.bits;
+    if (!barred.contains(f)) forced.bits |= bitOf(f) & settings.keepFeatures & ~used;
+  for (std::uint64_t before = 0; before != forced.bits;) {
+    before = forced.bits;
     for (const FeatureNeed& need : featureNeeds()) {
-      if (!(kept.bits & bitOf(need.feature)) || ((kept.bits | used) & bitsOf(need.oneOf))) continue;
+      if (!(forced.bits & bitOf(need.feature)) || ((forced.bits | used) & bitsOf(need.oneOf))) continue;
       const auto first =
           std::find_if(need.oneOf.begin(), need.oneOf.end(), [&](Feature f) { return !barred.contains(f); });
-      kept.bits |= bitOf(*first);  // there is one: else the feature would be barred
-      kept.neededBy.emplace(*first, need.feature);
+      forced.bits |= bitOf(*first);  // there is one: else the feature would be barred
+      forced.neededBy.emplace(*first, need.feature);
     }
   }
-  return kept;
+  return forced;
 }
 
 std::vector<std::string> uselessKeeps(const Settings& settings) {

@@ -18,13 +18,13 @@ struct FeatureNeed {
 const std::vector<FeatureNeed>& featureNeeds();
 
 /// Features that a scene does not need and that are compiled and run all the same.
-struct KeptFeatures {
+struct ForcedFeatures {
   std::uint64_t bits = 0;
-  std::map<Feature, Feature> neededBy;  ///< those that nobody asked for: the kept feature that needs them
+  std::map<Feature, Feature> neededBy;  ///< those that nobody asked for: the forced feature that needs them
 };
 
 /// What settings.keepFeatures adds to `used`, with what those features need. Nothing goes against a setting.
-KeptFeatures keptFeatures(const Settings& settings, std::uint64_t used);
+ForcedFeatures forcedFeatures(const Settings& settings, std::uint64_t used);
 
 /// A line for each of settings.keepFeatures that adds nothing, with the reason.
 std::vector<std::string> uselessKeeps(const Settings& settings);

@@ -15,20 +15,20 @@ namespace {
 /// The scene seen through the questions that features ask.
 class Needs {
  public:
-  Needs(const Scene& ofScene, const SceneUse& ofUse, const Settings& withSettings,
+  Needs(const Scene& ofScene, const PrunedScene& ofUse, const Settings& withSettings,
         const DeviceTraits& onDevice)
-      : scene(ofScene), use(ofUse), settings(withSettings), traits(onDevice) {}
+      : scene(ofScene), pruned(ofUse), settings(withSettings), traits(onDevice) {}
 
   const Scene& scene;
-  const SceneUse& use;  ///< what goes to the device
+  const PrunedScene& pruned;  ///< what goes to the device
   const Settings& settings;
   const DeviceTraits& traits;
 
   bool anyMaterial(const std::function<bool(const Material&)>& wanted) const {
-    return std::any_of(use.materials.begin(), use.materials.end(), wanted);
+    return std::any_of(pruned.materials.begin(), pruned.materials.end(), wanted);
   }
   bool anyLight(const std::function<bool(const Light&)>& wanted) const {
-    return std::any_of(use.lights.begin(), use.lights.end(),
+    return std::any_of(pruned.lights.begin(), pruned.lights.end(),
                        [&](std::uint32_t i) { return wanted(scene.lights[i]); });
   }
   bool anySlot(const std::function<bool(const TextureSlot&)>& wanted) const {
@@ -53,7 +53,7 @@ class Needs {
     return smooth(m) && (m.metallic > 0.0F || (m.specular > 0.0F && m.ior != 1.0F));
   }
 
-  bool lit() const { return !use.lights.empty(); }
+  bool lit() const { return !pruned.lights.empty(); }
   bool mirrors() const {
     return anyMaterial([this](const Material& m) { return reflects(m); });
   }
@@ -162,9 +162,9 @@ std::vector<Question> impulseQuestions(const Needs& n) {
        n.anyMaterial([](const Material& m) { return m.volume && m.sigma_a != glm::vec3(0.0F); }),
        "no volume absorbs"},
       {F::ALPHA_MASK, n.anyMaterial([](const Material& m) { return m.alphaMode == AlphaMode::Mask; }),
-       n.use.trimmed.needlessMasks > 0 ? "masks cut nothing out" : "no material is masked"},
+       n.pruned.pruning.needlessMasks > 0 ? "masks cut nothing out" : "no material is masked"},
       {F::ALPHA_BLEND, n.anyMaterial(Needs::blends),
-       n.use.trimmed.needlessBlends > 0 ? "blended materials are opaque" : "no material is blended"},
+       n.pruned.pruning.needlessBlends > 0 ? "blended materials are opaque" : "no material is blended"},
       {F::SPECULAR_EXTENSION, n.anyMaterial([](const Material& m) {
          return m.specular != 1.0F || m.specularColor != glm::vec3(1.0F) || m.specularTexture.used() ||
                 m.specularColorTexture.used();
@@ -193,7 +193,7 @@ std::vector<Question> cameraQuestions(const Needs& n) {
       {F::SAMPLER_RANDOM, sampler(Sampler::Random), one},
       {F::SAMPLER_STRATIFIED, sampler(Sampler::Stratified), one},
       {F::SAMPLER_SOBOL, sampler(Sampler::Sobol), one},
-      {F::FIXED_BUMP, n.settings.bump.has_value(), "the bump is derived at each hit"},
+      {F::FIXED_RAY_OFFSET, n.settings.rayOffset.has_value(), "the ray offset is derived at each hit"},
       {F::AOVS, n.settings.aovs, "no auxiliary output was asked for", true},
   };
 }
@@ -218,9 +218,9 @@ const std::vector<Feature>& allFeatures() {
   return all;
 }
 
-SceneFeatures SceneFeatures::analyse(const Scene& scene, const SceneUse& use, const Settings& settings,
+SceneFeatures SceneFeatures::analyse(const Scene& scene, const PrunedScene& pruned, const Settings& settings,
                                      const DeviceTraits& traits) {
-  const Needs needs(scene, use, settings, traits);
+  const Needs needs(scene, pruned, settings, traits);
   std::vector<Question> questions;
   for (auto part :
        {geometryQuestions(needs), lightQuestions(needs), impulseQuestions(needs), cameraQuestions(needs)})
@@ -230,13 +230,13 @@ SceneFeatures SceneFeatures::analyse(const Scene& scene, const SceneUse& use, co
   SceneFeatures features;
   for (const auto& q : questions)
     if (q.used || (settings.keepAllFeatures && !q.settingDecides)) features.bits_ |= bitOf(q);
-  const KeptFeatures kept = keptFeatures(settings, features.bits_);
-  features.bits_ |= kept.bits;
+  const ForcedFeatures forced = forcedFeatures(settings, features.bits_);
+  features.bits_ |= forced.bits;
   for (const auto& q : questions) {
     const bool used = features.bits_ & bitOf(q);
-    const auto neededBy = kept.neededBy.find(q.feature);
+    const auto neededBy = forced.neededBy.find(q.feature);
     features.lines_.push_back({q.feature, featureText(q.feature), used, used ? "" : q.reason, used && !q.used,
-                               neededBy == kept.neededBy.end() ? "" : featureText(neededBy->second)});
+                               neededBy == forced.neededBy.end() ? "" : featureText(neededBy->second)});
   }
   std::sort(features.lines_.begin(), features.lines_.end(), [](const FeatureLine& a, const FeatureLine& b) {
     return static_cast<int>(a.feature) < static_cast<int>(b.feature);

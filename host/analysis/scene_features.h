@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/scene_use.h"
+#include "analysis/pruned_scene.h"
 #include "kernels/shared/features.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -35,7 +35,7 @@ struct FeatureLine {
   std::string text;  ///< what a person calls it
   bool used = false;
   std::string reason;    ///< why it is left out, or empty
-  bool kept = false;     ///< used only because it was asked for, or because one that was needs it
+  bool forced = false;   ///< used only because it was asked for, or because one that was needs it
   std::string neededBy;  ///< that one, or empty
 };
 
@@ -55,11 +55,11 @@ class SceneFeatures {
   }
   /// Derives the features of what goes to the device. settings.keepAllFeatures switches everything on that
   /// does not contradict the settings, settings.keepFeatures these and what they need (feature_needs.h).
-  static SceneFeatures analyse(const Scene& scene, const SceneUse& use, const Settings& settings,
+  static SceneFeatures analyse(const Scene& scene, const PrunedScene& pruned, const Settings& settings,
                                const DeviceTraits& traits);
   /// The same where nothing else asks what goes to the device.
   static SceneFeatures analyse(const Scene& scene, const Settings& settings, const DeviceTraits& traits) {
-    return analyse(scene, useOf(scene, settings), settings, traits);
+    return analyse(scene, pruneScene(scene, settings), settings, traits);
   }
 
  private:

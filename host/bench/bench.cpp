@@ -7,9 +7,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "bench/embree_yardstick.h"
+#include "bench/embree_baseline.h"
 #include "bench/query_runner.h"
-#include "bvh/wide_tree.h"
+#include "bvh/bvh8.h"
 #include "scene/input_error.h"
 
 namespace whittle {
@@ -85,7 +85,7 @@ class Bench {
       const auto start = std::chrono::steady_clock::now();
       tree_ = buildTriTree(scene_.positions, corners);
       // What packets search; the two-wide tree is on the way there.
-      buildWideTree(tree_, scene_.positions, corners);
+      buildBvh8(tree_, scene_.positions, corners);
       ours.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
       if (!haveEmbree()) continue;
       say("building Embree's tree");
@@ -114,9 +114,9 @@ class Bench {
           {k->kernel().name, perTriangle(k->nodeBytes()), perTriangle(k->triangleBytes())});
   }
 
-  double makeEmbree(std::unique_ptr<EmbreeYardstick>& out, bool robust) {
+  double makeEmbree(std::unique_ptr<EmbreeBaseline>& out, bool robust) {
     out.reset();
-    out = std::make_unique<EmbreeYardstick>(scene_, robust, options_.threads);
+    out = std::make_unique<EmbreeBaseline>(scene_, robust, options_.threads);
     return out->buildSeconds();
   }
 
@@ -142,7 +142,7 @@ class Bench {
     const auto chosen = contenders();
     say(rays.kind + " rays");
     for (QueryRunner* k : chosen) k->load(rays);
-    for (EmbreeYardstick* e : {fast_.get(), robust_.get()})
+    for (EmbreeBaseline* e : {fast_.get(), robust_.get()})
       if (e) e->load(rays);
     measure(rays, chosen, "nearest");
     measure(rays, chosen, "any");
@@ -154,7 +154,7 @@ class Bench {
     std::vector<Runner> runners;
     for (QueryRunner* k : chosen) runners.push_back({[=] { return nearest ? k->nearest() : k->any(); }, {}});
     for (const EmbreeMode& m : modes_) {
-      EmbreeYardstick* e = m.robust ? robust_.get() : fast_.get();
+      EmbreeBaseline* e = m.robust ? robust_.get() : fast_.get();
       runners.push_back({[=] { return nearest ? e->nearest(m) : e->any(m); }, {}});
     }
     race(runners, options_.runs);
@@ -195,7 +195,7 @@ class Bench {
   std::vector<EmbreeMode> modes_;
   TriTree tree_;
   std::vector<std::unique_ptr<QueryRunner>> kernels_;
-  std::unique_ptr<EmbreeYardstick> fast_, robust_;
+  std::unique_ptr<EmbreeBaseline> fast_, robust_;
   BenchResult result_;
 };
 

@@ -59,7 +59,7 @@ std::size_t QueryRunner::sceneBytes() const {
   return bytes;
 }
 
-std::size_t QueryRunner::nodeBytes() const { return scene_.wideNodes.bytes + scene_.nodes.bytes; }
+std::size_t QueryRunner::nodeBytes() const { return scene_.bvh8Nodes.bytes + scene_.nodes.bytes; }
 
 std::size_t QueryRunner::triangleBytes() const {
   return scene_.leaves ? scene_.leaves.bytes : scene_.triangles.bytes;

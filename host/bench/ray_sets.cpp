@@ -32,7 +32,7 @@ glm::dvec3 sphereDirection(double u, double v) {
 /// A surface as a ray met it: point, normal towards the ray's origin, distance that rounding asks for.
 struct Surface {
   glm::dvec3 point, normal;
-  double bump;
+  double rayOffset;
 };
 
 Surface surfaceAt(const Scene& scene, const QueryHit& hit, const glm::dvec3& along) {
@@ -44,7 +44,7 @@ Surface surfaceAt(const Scene& scene, const QueryHit& hit, const glm::dvec3& alo
   s.normal = glm::normalize(glm::cross(p1 - p0, p2 - p0));
   if (glm::dot(s.normal, along) > 0) s.normal = -s.normal;
   const glm::dvec3 size = glm::max(glm::abs(p0), glm::max(glm::abs(p1), glm::abs(p2)));
-  s.bump = std::max(0x1p-20 * std::max({size.x, size.y, size.z}), 1e-30);
+  s.rayOffset = std::max(0x1p-20 * std::max({size.x, size.y, size.z}), 1e-30);
   return s;
 }
 
@@ -128,7 +128,7 @@ RaySet shadowRays(const Scene& scene, const RaySet& from, const std::vector<Quer
   RaySet rays{"shadow", {}, {}, {}};
   const glm::dvec3 light = lightPosition(scene);
   forHits(scene, from, hits, [&](std::size_t, const Surface& s, const glm::dvec3&) {
-    const glm::dvec3 o = s.point + s.normal * s.bump, to = light - o;
+    const glm::dvec3 o = s.point + s.normal * s.rayOffset, to = light - o;
     const double length = glm::length(to);
     if (length > 0) rays.add(glm::vec3(o), glm::vec3(to / length), static_cast<float>(length));
   });
@@ -139,8 +139,8 @@ RaySet mirrorRays(const Scene& scene, const RaySet& from, const std::vector<Quer
                   const std::string& kind) {
   RaySet rays{kind, {}, {}, {}};
   forHits(scene, from, hits, [&](std::size_t, const Surface& s, const glm::dvec3& d) {
-    rays.add(glm::vec3(s.point + s.normal * s.bump), glm::vec3(glm::normalize(glm::reflect(d, s.normal))),
-             kInfinity);
+    rays.add(glm::vec3(s.point + s.normal * s.rayOffset),
+             glm::vec3(glm::normalize(glm::reflect(d, s.normal))), kInfinity);
   });
   return rays;
 }
@@ -150,7 +150,7 @@ RaySet refractedRays(const Scene& scene, const RaySet& from, const std::vector<Q
   forHits(scene, from, hits, [&](std::size_t, const Surface& s, const glm::dvec3& d) {
     const glm::dvec3 in = glm::refract(d, s.normal, 1 / 1.5);
     const bool total = in == glm::dvec3(0);
-    rays.add(glm::vec3(s.point + s.normal * (total ? s.bump : -s.bump)),
+    rays.add(glm::vec3(s.point + s.normal * (total ? s.rayOffset : -s.rayOffset)),
              glm::vec3(glm::normalize(total ? glm::reflect(d, s.normal) : in)), kInfinity);
   });
   return rays;
@@ -161,7 +161,7 @@ RaySet cosineRays(const Scene& scene, const RaySet& from, const std::vector<Quer
   forHits(scene, from, hits, [&](std::size_t i, const Surface& s, const glm::dvec3&) {
     const glm::dvec3 d =
         glm::normalize(s.normal * (1 + 1e-9) + sphereDirection(hashUnit(i, 0), hashUnit(i, 1)));
-    rays.add(glm::vec3(s.point + s.normal * s.bump), glm::vec3(d), kInfinity);
+    rays.add(glm::vec3(s.point + s.normal * s.rayOffset), glm::vec3(d), kInfinity);
   });
   return rays;
 }

@@ -32,7 +32,7 @@ struct QueryHit {
 /// pixel order.
 RaySet eyeRays(const Scene& scene, std::size_t count);
 
-/// From each hit of `from`, bumped off the surface as the renderer does: to a point light (the scene's first,
+/// From each hit of `from`, moved off the surface as the renderer does: to a point light (the scene's first,
 /// else a point above it), along the mirror direction, refracted into glass of index 1.5 (reflected where
 /// that is total), or cosine-distributed about the normal. Geometric normals. Rays that hit nothing leave
 /// none.

@@ -7,7 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/embree_yardstick.h"
+#include "bench/embree_baseline.h"
 #include "cl/device.h"
 #include "cli/build_failure.h"
 #include "cli/commands.h"

@@ -50,10 +50,11 @@ void runInfo(const InfoOptions& o) {
     if (!o.settings.device.empty()) throw;
     problem = e.what();
   }
-  const SceneUse use = plan ? std::move(plan->use) : useOf(scene, o.settings);
-  const SceneFeatures features = plan ? plan->features : SceneFeatures::analyse(scene, use, o.settings, {});
-  const auto stages = plan ? plan->stages : plannedStages(features, use.lights.size(), o.settings.bounces);
-  const InfoReport report{scene, notices, features, use.trimmed, stages, plan, problem};
+  const PrunedScene pruned = plan ? std::move(plan->pruned) : pruneScene(scene, o.settings);
+  const SceneFeatures features =
+      plan ? plan->features : SceneFeatures::analyse(scene, pruned, o.settings, {});
+  const auto stages = plan ? plan->stages : plannedStages(features, pruned.lights.size(), o.settings.bounces);
+  const InfoReport report{scene, notices, features, pruned.pruning, stages, plan, problem};
   if (o.json)
     fmt::print("{}\n",
                infoJson(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));

@@ -78,7 +78,7 @@ std::string featuresText(const SceneFeatures& features) {
   for (const auto& line : features.lines()) {
     if (!line.used) continue;
     const std::string why = line.neededBy.empty() ? "" : fmt::format(" (needed by {})", line.neededBy);
-    (line.kept ? kept : needed).push_back(line.text + why);
+    (line.forced ? kept : needed).push_back(line.text + why);
   }
   const std::string leftOut = leftOutText(features);
   return section("Needed", needed) + (kept.empty() ? "" : section("Kept because asked for", kept)) +

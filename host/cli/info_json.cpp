@@ -47,16 +47,16 @@ Json lightsJson(const Scene& scene) {
   return lights;
 }
 
-Json featuresJson(const SceneFeatures& features, const Trimmed& trimmed) {
+Json featuresJson(const SceneFeatures& features, const PruningReport& pruning) {
   Json json{{"used", Json::array()}, {"kept", Json::array()}, {"leftOut", Json::array()}};
   for (const auto& line : features.lines()) {
-    if (line.kept) json["kept"].push_back(line.text);
+    if (line.forced) json["kept"].push_back(line.text);
     if (line.used)
       json["used"].push_back(line.text);
     else
       json["leftOut"].push_back({{"name", line.text}, {"reason", line.reason}});
   }
-  json["trimmed"] = trimmedToJson(trimmed);
+  json["trimmed"] = pruningToJson(pruning);
   return json;
 }
 
@@ -82,7 +82,7 @@ Json infoJson(const InfoReport& r) {
       {"lights", lightsJson(scene)},
       {"cameras", camerasJson(scene)},
       {"background", {{"radiance", toJson(b.radiance)}, {"mapWidth", b.width}, {"mapHeight", b.height}}},
-      {"features", featuresJson(r.features, r.trimmed)},
+      {"features", featuresJson(r.features, r.pruning)},
       {"stages", r.stages}};
   json["device"] = r.plan ? Json(r.plan->device.name) : Json(nullptr);
   json["deviceProblem"] = r.plan ? Json(nullptr) : Json(r.planProblem);

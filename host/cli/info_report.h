@@ -15,7 +15,7 @@ struct InfoReport {
   const Scene& scene;
   const Notices& notices;
   const SceneFeatures& features;
-  const Trimmed& trimmed;  ///< what of the scene stays on the host
+  const PruningReport& pruning;  ///< what of the scene stays on the host
   std::vector<std::string> stages;
   std::optional<RenderPlan> plan;  ///< unset: no device
   std::string planProblem;         ///< why

@@ -94,7 +94,7 @@ std::string contents(const Scene& s) {
 }
 
 /// "3 of 12 materials: 5 that no triangle has, 4 alike"; nothing where all of them go to the device.
-std::string trimmedLine(const Trimmed::Things& things, const char* what, const char* unused) {
+std::string pruningLine(const PruningReport::Things& things, const char* what, const char* unused) {
   std::vector<std::string> reasons;
   if (things.unused > 0) reasons.push_back(formatInteger(things.unused) + unused);
   if (things.alike > 0) reasons.push_back(fmt::format("{} like another", formatInteger(things.alike)));
@@ -106,10 +106,10 @@ std::string trimmedLine(const Trimmed::Things& things, const char* what, const c
          "\n";
 }
 
-std::string trimmedText(const Trimmed& t) {
-  std::string out = trimmedLine(t.materials, "materials", " that no triangle has") +
-                    trimmedLine(t.images, "texture images", " that no material reads") +
-                    trimmedLine(t.vertices, "vertices", " that no triangle has");
+std::string pruningText(const PruningReport& t) {
+  std::string out = pruningLine(t.materials, "materials", " that no triangle has") +
+                    pruningLine(t.images, "texture images", " that no material reads") +
+                    pruningLine(t.vertices, "vertices", " that no triangle has");
   if (t.needlessMasks > 0)
     out += fmt::format("  {}\n", formatSome(t.needlessMasks, "alpha mask that cuts nothing out",
                                             "alpha masks that cut nothing out"));
@@ -158,7 +158,7 @@ std::string buffersText(const RenderPlan& plan) {
 
 std::string infoText(const InfoReport& r) {
   std::string out =
-      r.scene.file + "\n\n" + contents(r.scene) + featuresText(r.features) + trimmedText(r.trimmed);
+      r.scene.file + "\n\n" + contents(r.scene) + featuresText(r.features) + pruningText(r.pruning);
   out += "\nStages that will run\n  " + wrapped(fmt::format("{}", fmt::join(r.stages, ", ")), 78, 2) + "\n\n";
   if (r.plan) return out + buffersText(*r.plan);
   return out + "Buffers\n  " + wrapped("unknown: " + r.planProblem, 78, 2) + "\n";

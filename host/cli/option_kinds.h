@@ -42,16 +42,16 @@ CLI::Option* addWhole(CLI::App& command, const std::string& name, T& value, std:
                  {valueName, text, fallback.empty() ? std::to_string(value) : fallback});
 }
 
-/// T: float, double or an optional of them.
+/// T: float, double or an optional of them. `name` may list aliases after commas; messages name the first.
 template <typename T>
 CLI::Option* addReal(CLI::App& command, const std::string& name, T& value, double low, double high,
                      const std::string& valueName, const std::string& text, const std::string& fallback) {
   return addText(command, name,
-                 [&value, name, low, high](const std::string& word) {
+                 [&value, said = name.substr(0, name.find(',')), low, high](const std::string& word) {
                    if constexpr (std::is_same_v<T, double>)
-                     value = parseReal(name, word, low, high);
+                     value = parseReal(said, word, low, high);
                    else
-                     value = static_cast<float>(parseReal(name, word, low, high));
+                     value = static_cast<float>(parseReal(said, word, low, high));
                  },
                  {valueName, text, fallback});
 }

@@ -114,8 +114,8 @@ void addPictureOptions(CLI::App& c, Settings& s) {
   addWhole(c, "--seed", s.seed, 0, std::numeric_limits<std::uint32_t>::max(), "N", "of every random number");
   addChoice<ImpulseMode>(c, "--impulses", s.impulses, {{"all", ImpulseMode::All}, {"one", ImpulseMode::One}},
                          "follow both branches of a surface, or one chosen at random");
-  addReal(c, "--bump", s.bump, 0, 1e30, "METRES", "distance of a ray's origin from its surface",
-          "from the rounding error of each hit");
+  addReal(c, "--ray-offset,--bump", s.rayOffset, 0, 1e30, "METRES",
+          "distance of a ray's origin from its surface", "from the rounding error of each hit");
   addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R", "surfaces smoother than this are mirrors",
           fmt::format("{}", s.mirrorRoughness));
 }

@@ -13,7 +13,7 @@
 
 #include "cl/kernel_source.h"
 #include "kernels/shared/layout.h"
-#include "programs/asked_features.h"
+#include "programs/referenced_features.h"
 
 namespace whittle {
 namespace {
@@ -86,7 +86,7 @@ std::vector<KernelProgram> kernelPrograms(const SceneFeatures& features,
     program.name = part.name;
     program.mayRelax = part.mayRelax;
     program.source = assembleKernelSource(part.files, folder);
-    program.features = askedFeatures(program.source, features.bits());
+    program.features = referencedFeatures(program.source, features.bits());
     programs.push_back(std::move(program));
   }
   return programs;

@@ -56,8 +56,8 @@ Vec3 mappedNormal(const Scene& scene, const Material& material, const Hit& hit, 
   return isFinite(mapped) ? mapped : n;
 }
 
-double bumpAt(const Settings& settings, const TriangleIndex& triangles, const Hit& hit) {
-  if (settings.bump) return *settings.bump;
+double rayOffsetAt(const Settings& settings, const TriangleIndex& triangles, const Hit& hit) {
+  if (settings.rayOffset) return *settings.rayOffset;
   const auto corners = triangles.corners(hit.triangle);
   Vec3 size(0);
   for (int i = 0; i < 3; ++i) size += hit.barycentric[i] * glm::abs(corners[i]);
@@ -114,7 +114,7 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
       .facing = n_g,
       .n = mappedNormal(scene, material, hit, interpolatedNormal(scene, hit, n_g)),
       .front = glm::dot(n_g, w_o) > 0,
-      .bump = bumpAt(settings, triangles, hit),
+      .rayOffset = rayOffsetAt(settings, triangles, hit),
       .baseColor = Vec3(color),
       .alpha = material.alphaMode == AlphaMode::Blend ? color.a : 1.0,
       .metallic = metallicAt(scene, material, hit),

@@ -8,13 +8,13 @@
 namespace whittle::reference {
 
 struct Surfel {
-  Vec3 position;   ///< world, metres
-  Vec3 facing;     ///< N_g: unit geometric normal on the side of the viewer
-  Vec3 n;          ///< unit shading normal, n·w_o > 0
-  bool front;      ///< seen from the side of the counter-clockwise winding
-  double bump;     ///< metres between `position` and the origins of secondary rays
-  Vec3 baseColor;  ///< linear
-  double alpha;    ///< coverage, in [0,1]
+  Vec3 position;     ///< world, metres
+  Vec3 facing;       ///< N_g: unit geometric normal on the side of the viewer
+  Vec3 n;            ///< unit shading normal, n·w_o > 0
+  bool front;        ///< seen from the side of the counter-clockwise winding
+  double rayOffset;  ///< metres between `position` and the origins of secondary rays
+  Vec3 baseColor;    ///< linear
+  double alpha;      ///< coverage, in [0,1]
   double metallic;
   double roughness;
   double transmission;

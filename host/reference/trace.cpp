@@ -60,7 +60,7 @@ Vec3 impulseLight(const World& world, const Sample& sample, const Surfel& surfel
     }
     ++sample.rays.impulse;
     const double side = impulse.through ? -1 : 1;
-    const Ray ray{surfel.position + side * surfel.bump * surfel.facing, impulse.w_i};
+    const Ray ray{surfel.position + side * surfel.rayOffset * surfel.facing, impulse.w_i};
     sum += impulse.magnitude * Li(world, sample, ray, depth + 1, share);
   }
   return sum;
@@ -75,8 +75,8 @@ std::optional<Hit> nearestSurface(const World& world, const Ray& ray) {
 }
 
 Vec3 visibility(const World& world, const Surfel& surfel, const Vec3& w_i, double distance) {
-  const Ray ray{surfel.position + surfel.bump * surfel.facing, w_i};
-  const double length = distance - 2 * surfel.bump;
+  const Ray ray{surfel.position + surfel.rayOffset * surfel.facing, w_i};
+  const double length = distance - 2 * surfel.rayOffset;
   if (!(length > 0)) return Vec3(1);
 
   // Opacity in units of 2⁻¹⁶ stops: a sum of integers does not depend on the order of the surfaces.

@@ -14,7 +14,7 @@ namespace whittle {
 
 struct RenderPlan {
   SceneFeatures features;
-  SceneUse use;                       ///< what goes to the device
+  PrunedScene pruned;                 ///< what goes to the device
   std::vector<std::string> stages;    ///< kernels, in the order of their first launch
   std::vector<BufferStats> buffers;   ///< as allocated: real sizes
   std::uint64_t everythingBytes = 0;  ///< of all buffers with settings.keepAllFeatures

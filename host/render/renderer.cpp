@@ -35,7 +35,7 @@ void copy3(float* out, const glm::vec3& v) { out[0] = v.x, out[1] = v.y, out[2] 
 device::RenderConstants constantsToDevice(const Scene& scene, const Settings& s) {
   device::RenderConstants c{};
   copy3(c.background, scene.background.radiance);
-  c.bump = s.bump.value_or(-1.0F);
+  c.rayOffset = s.rayOffset.value_or(-1.0F);
   c.backgroundWidth = scene.background.width;
   c.backgroundHeight = scene.background.height;
   c.mirrorRoughness = s.mirrorRoughness;
@@ -94,9 +94,9 @@ class Session {
       tbbLimit_.emplace(tbb::global_control::max_allowed_parallelism, settings_.threads);
     const bool cpu = compute_->device().kind == "cpu";
     const auto deciding = Clock::now();
-    use_ = useOf(scene_, settings_);
+    pruned_ = pruneScene(scene_, settings_);
     endPhase("decide what is needed", deciding);
-    features_ = SceneFeatures::analyse(scene_, use_, settings_, {compute_->device().suitsPackets()});
+    features_ = SceneFeatures::analyse(scene_, pruned_, settings_, {compute_->device().suitsPackets()});
     compactChunk_ = cpu ? 1024 : 32;
     workGroup_ = settings_.workGroup > 0 ? settings_.workGroup : defaultWorkGroup(features_);
     if (static_cast<std::uint64_t>(workGroup_) > compute_->device().maxWorkGroup)
@@ -117,7 +117,7 @@ class Session {
     reportBuffers();
     usedSettings();
     return {features_,
-            std::move(use_),
+            std::move(pruned_),
             plannedStages(features_, deviceScene_.lightCount, settings_.bounces),
             stats_.buffers,
             bytesOfEverything(tree),
@@ -135,7 +135,7 @@ class Session {
   std::uint64_t bytesOfEverything(const TriTree& tree) {
     Settings all = settings_;
     all.keepAllFeatures = true;
-    const SceneUse whole = wholeScene(scene_);
+    const PrunedScene whole = unprunedScene(scene_);
     const auto features = SceneFeatures::analyse(scene_, whole, all, {compute_->device().suitsPackets()});
     std::vector<BufferStats> buffers;
     uploadScene(*compute_, scene_, whole, tree, features).report(buffers);
@@ -160,7 +160,7 @@ class Session {
     say("compiling kernels");
     const auto start = Clock::now();
     auto programs = std::async(std::launch::async, [this, start] {
-      const auto stages = plannedStages(features_, use_.lights.size(), settings_.bounces);
+      const auto stages = plannedStages(features_, pruned_.lights.size(), settings_.bounces);
       const CompileTarget target{compactChunk_, workGroup_, settings_.relaxedArithmetic};
       CompileBeside beside;
       if (!hooks_.compiler.empty())
@@ -222,7 +222,7 @@ class Session {
     stats_.time.build = secondsSince(start);
     endPhase("build tree", start);
     start = Clock::now();
-    deviceScene_ = uploadScene(*compute_, scene_, use_, tree, features_);
+    deviceScene_ = uploadScene(*compute_, scene_, pruned_, tree, features_);
     queues_.emplace(*compute_, features_, roundedCapacity(settings_), compactChunk_);
     stats_.time.upload = film + secondsSince(start);
     endPhase("upload", start);
@@ -275,9 +275,9 @@ class Session {
         stats_.featuresUsed.push_back(line.text);
       else
         stats_.featuresLeftOut.emplace_back(line.text, line.reason);
-      if (line.kept) stats_.featuresKept.push_back(line.text);
+      if (line.forced) stats_.featuresForced.push_back(line.text);
     }
-    stats_.trimmed = use_.trimmed;
+    stats_.pruning = pruned_.pruning;
     const RayTally& t = wavefront_->tally();
     stats_.rays = {t.primary, t.impulse, t.shadow};
     stats_.dropped = t.produced - t.finished;
@@ -307,7 +307,7 @@ class Session {
   const RenderHooks& hooks_;
   Compute::Memory memory_;
   std::size_t cameraIndex_ = 0;
-  SceneUse use_;
+  PrunedScene pruned_;
   SceneFeatures features_;
   std::uint32_t compactChunk_ = 0;
   int workGroup_ = 0;

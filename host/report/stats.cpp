@@ -23,7 +23,7 @@ const char* toString(Lanes lanes) {
 
 namespace {
 
-std::vector<std::string> keptFeatures(const Settings& s) {
+std::vector<std::string> forcedFeatures(const Settings& s) {
   std::vector<std::string> names;
   for (const Feature f : allFeatures())
     if ((s.keepFeatures >> static_cast<int>(f)) & 1U) names.emplace_back(featureText(f));
@@ -42,6 +42,8 @@ bool meetsTarget(const Settings& s, const ErrorPoint& point) {
 }
 
 nlohmann::ordered_json settingsToJson(const Settings& s) {
+  nlohmann::ordered_json rayOffset;
+  if (s.rayOffset) rayOffset = jsonFloat(*s.rayOffset);
   return {{"width", s.width},
           {"height", s.height},
           {"camera", s.camera},
@@ -59,11 +61,12 @@ nlohmann::ordered_json settingsToJson(const Settings& s) {
           {"lanes", toString(s.lanes)},
           {"wavefront", s.wavefront},
           {"workGroup", s.workGroup},
-          {"bump", s.bump ? nlohmann::ordered_json(jsonFloat(*s.bump)) : nlohmann::ordered_json(nullptr)},
+          {"rayOffset", rayOffset},
+          {"bump", rayOffset},  // its name before 0.1.0
           {"mirrorRoughness", jsonFloat(s.mirrorRoughness)},
           {"relaxedArithmetic", s.relaxedArithmetic},
           {"keepAllFeatures", s.keepAllFeatures},
-          {"keepFeatures", keptFeatures(s)},
+          {"keepFeatures", forcedFeatures(s)},
           {"adaptive", s.adaptive},
           {"targetError", s.targetError},
           {"targetErrorRelative", s.targetErrorRelative},
@@ -130,11 +133,11 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
                     {"version", s.device.version},           {"driver", s.device.driver},
                     {"computeUnits", s.device.computeUnits}, {"threads", s.device.threads}};
   json["features"]["used"] = s.featuresUsed;
-  json["features"]["kept"] = s.featuresKept;
+  json["features"]["kept"] = s.featuresForced;
   json["features"]["leftOut"] = nlohmann::ordered_json::array();
   for (const auto& [name, reason] : s.featuresLeftOut)
     json["features"]["leftOut"].push_back({{"name", name}, {"reason", reason}});
-  json["features"]["trimmed"] = trimmedToJson(s.trimmed);
+  json["features"]["trimmed"] = pruningToJson(s.pruning);
   json["rays"] = {{"primary", s.rays.primary},
                   {"impulse", s.rays.impulse},
                   {"shadow", s.rays.shadow},

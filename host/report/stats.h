@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/trimmed.h"
+#include "analysis/pruning_report.h"
 #include "scene/settings.h"
 
 namespace whittle {
@@ -75,9 +75,9 @@ struct Stats {
     int threads = 0;
   } device;
   std::vector<std::string> featuresUsed;
-  std::vector<std::string> featuresKept;  ///< those of them that the scene does not need
+  std::vector<std::string> featuresForced;  ///< those of them that the scene does not need
   std::vector<std::pair<std::string, std::string>> featuresLeftOut;  ///< name, reason
-  Trimmed trimmed;                                                   ///< what of the scene stays on the host
+  PruningReport pruning;                                             ///< what of the scene stays on the host
   struct {
     std::uint64_t primary = 0, impulse = 0, shadow = 0;
     std::uint64_t total() const { return primary + impulse + shadow; }

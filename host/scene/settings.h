@@ -31,7 +31,7 @@ struct Settings {
   int threads = 0;                 ///< CPU devices; 0: all
   int wavefront = 1 << 18;         ///< rays in flight
   int workGroup = 0;               ///< work items; 0: chosen for the device
-  std::optional<float> bump;       ///< metres; unset: derived from the scene at each hit
+  std::optional<float> rayOffset;  ///< metres; unset: derived from the scene at each hit
   float mirrorRoughness = 0.2F;    ///< a surface smoother than this reflects and refracts as a mirror
   bool relaxedArithmetic = false;  ///< shading alone is compiled with -cl-fast-relaxed-math
   bool keepAllFeatures = false;

@@ -26,7 +26,7 @@ static_assert(sizeof(device::DeviceCamera) == 128);
 /// image.
 class TextureAtlas {
  public:
-  TextureAtlas(const Scene& scene, const SceneUse& use) : scene_(scene), use_(use) {}
+  TextureAtlas(const Scene& scene, const PrunedScene& pruned) : scene_(scene), pruned_(pruned) {}
 
   /// Index of the slot on the device, -1 for an empty one.
   int add(const TextureSlot& slot) {
@@ -49,13 +49,13 @@ class TextureAtlas {
 
  private:
   const Image& imageOf(int index) const {
-    return scene_.images[use_.images[static_cast<std::size_t>(index)]];
+    return scene_.images[pruned_.images[static_cast<std::size_t>(index)]];
   }
 
   int indexOf(const device::DeviceTexture& t) {
     const std::string bits(reinterpret_cast<const char*>(&t), sizeof(t));
     const auto [at, isNew] = known_.try_emplace(bits, static_cast<int>(slots.size()));
-    if (!isNew && use_.sharesSlots) return at->second;
+    if (!isNew && pruned_.sharesSlots) return at->second;
     slots.push_back(t);
     return static_cast<int>(slots.size()) - 1;
   }
@@ -72,7 +72,7 @@ class TextureAtlas {
   }
 
   const Scene& scene_;
-  const SceneUse& use_;
+  const PrunedScene& pruned_;
   std::map<int, std::uint32_t> first_;          ///< texel, by image
   std::unordered_map<std::string, int> known_;  ///< slots by their bits
 };
@@ -137,16 +137,16 @@ std::vector<glm::uvec3> hittableCorners(const Scene& scene) {
 }
 
 /// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
-std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene, const SceneUse& use,
+std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene, const PrunedScene& pruned,
                                                   const std::vector<glm::uvec3>& corners,
                                                   const std::vector<std::uint32_t>& order) {
   std::vector<device::DeviceTriangle> out(order.size() + 1);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const std::uint32_t material = use.materialOf[scene.triangles[order[i]].material];
+    const std::uint32_t material = pruned.materialOf[scene.triangles[order[i]].material];
     for (int k = 0; k < 3; ++k) copy3(out[i].v[k], scene.positions[corners[order[i]][k]]);
     out[i].primitive = order[i];
     out[i].material = material;
-    out[i].flags = triangleFlags(use.materials[material]);
+    out[i].flags = triangleFlags(pruned.materials[material]);
   }
   out.back().primitive = 0xffffffffU;
   return out;
@@ -171,13 +171,13 @@ std::vector<float> srgbTable() {
   return table;
 }
 
-std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const SceneUse& use) {
+std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const PrunedScene& pruned) {
   std::vector<device::DeviceLight> out;
   const auto versine = [](double angle) {
     const double s = std::sin(0.5 * angle);
     return static_cast<float>(2.0 * s * s);
   };
-  for (const std::uint32_t i : use.lights) {
+  for (const std::uint32_t i : pruned.lights) {
     const Light& l = scene.lights[i];
     device::DeviceLight d{};
     copy3(d.intensity, l.intensity);
@@ -198,17 +198,17 @@ std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const SceneU
 /// of vertex.
 template <typename T>
 Buffer uploadVertices(Compute& compute, const std::string& name, const std::vector<T>& all,
-                      const SceneUse& use) {
-  if (all.empty()) return compute.upload(name, std::vector<T>(use.vertexCount, T(0)));
-  if (use.vertexOf.empty()) return compute.upload(name, all);
-  std::vector<T> used(use.vertexCount);
+                      const PrunedScene& pruned) {
+  if (all.empty()) return compute.upload(name, std::vector<T>(pruned.vertexCount, T(0)));
+  if (pruned.vertexOf.empty()) return compute.upload(name, all);
+  std::vector<T> used(pruned.vertexCount);
   for (std::size_t v = 0; v < all.size(); ++v)
-    if (use.vertexOf[v] != kNotUsed) used[use.vertexOf[v]] = all[v];
+    if (pruned.vertexOf[v] != kNotUsed) used[pruned.vertexOf[v]] = all[v];
   return compute.upload(name, used);
 }
 
 /// Vertices of every triangle in leaf order, and of the degenerate one.
-std::vector<std::uint32_t> cornersOnDevice(const Scene& scene, const SceneUse& use,
+std::vector<std::uint32_t> cornersOnDevice(const Scene& scene, const PrunedScene& pruned,
                                            const std::vector<std::uint32_t>& order) {
   std::vector<std::uint32_t> corners;
   corners.reserve(order.size() * 3 + 3);
@@ -216,8 +216,8 @@ std::vector<std::uint32_t> cornersOnDevice(const Scene& scene, const SceneUse& u
     const Triangle& t = scene.triangles[i];
     corners.insert(corners.end(), {t.v0, t.v1, t.v2});
   }
-  if (!use.vertexOf.empty())
-    for (std::uint32_t& v : corners) v = use.vertexOf[v];
+  if (!pruned.vertexOf.empty())
+    for (std::uint32_t& v : corners) v = pruned.vertexOf[v];
   corners.resize(corners.size() + 3);
   return corners;
 }
@@ -230,7 +230,7 @@ std::vector<std::uint32_t> packedCorners(const std::vector<std::uint32_t>& corne
 }
 
 std::string groupOf(const std::string& name) {
-  if (name == "nodes" || name == "wideNodes" || name == "leaves") return "tree";
+  if (name == "nodes" || name == "bvh8Nodes" || name == "leaves") return "tree";
   if (name == "textures" || name == "texels" || name == "linearFromSrgb" || name == "background")
     return "textures";
   return "triangles";
@@ -243,7 +243,7 @@ void DeviceScene::report(std::vector<BufferStats>& out) const {
     if (*b) out.push_back({b->name, groupOf(b->name), b->bytes});
 }
 
-DeviceScene uploadScene(Compute& compute, const Scene& scene, const SceneUse& use, const TriTree& tree,
+DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, const TriTree& tree,
                         const SceneFeatures& features) {
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
@@ -251,34 +251,34 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const SceneUse& us
   if (features.has(Feature::TREE) && !features.has(Feature::PACKETS))
     d.nodes = compute.upload("nodes", withSentinels(tree));
   if (features.has(Feature::TREE) && features.has(Feature::PACKETS)) {
-    const WideTree wide = buildWideTree(tree, scene.positions, hittable);
-    if (wide.depth > WIDE_DEPTH)
+    const Bvh8 wide = buildBvh8(tree, scene.positions, hittable);
+    if (wide.depth > BVH8_DEPTH)
       throw ClError(fmt::format("the eight-wide tree is {} nodes deep, the kernels have room for {}",
-                                wide.depth, WIDE_DEPTH));
-    d.wideNodes = compute.upload("wideNodes", wide.nodes);
+                                wide.depth, BVH8_DEPTH));
+    d.bvh8Nodes = compute.upload("bvh8Nodes", wide.nodes);
     d.leaves = compute.upload("leaves", wide.corners);
   }
-  d.triangles = compute.upload("triangles", leafTriangles(scene, use, hittable, tree.order));
+  d.triangles = compute.upload("triangles", leafTriangles(scene, pruned, hittable, tree.order));
   const bool interpolates = features.has(Feature::VERTEX_NORMALS) || features.has(Feature::TEXTURES) ||
                             features.has(Feature::VERTEX_COLORS);
   if (interpolates) {
-    const auto corners = cornersOnDevice(scene, use, tree.order);
-    if (use.narrowCorners)
+    const auto corners = cornersOnDevice(scene, pruned, tree.order);
+    if (pruned.narrowCorners)
       d.corners = compute.upload("corners", packedCorners(corners));
     else
-      d.wideCorners = compute.upload("corners", corners);
+      d.indices32 = compute.upload("corners", corners);
   }
   if (features.has(Feature::VERTEX_NORMALS))
-    d.normals = uploadVertices(compute, "normals", scene.normals, use);
+    d.normals = uploadVertices(compute, "normals", scene.normals, pruned);
   if (features.has(Feature::NORMAL_TEXTURE))
-    d.tangents = uploadVertices(compute, "tangents", scene.tangents, use);
-  if (features.has(Feature::UV0)) d.uv0 = uploadVertices(compute, "uv0", scene.uv0, use);
-  if (features.has(Feature::UV1)) d.uv1 = uploadVertices(compute, "uv1", scene.uv1, use);
+    d.tangents = uploadVertices(compute, "tangents", scene.tangents, pruned);
+  if (features.has(Feature::UV0)) d.uv0 = uploadVertices(compute, "uv0", scene.uv0, pruned);
+  if (features.has(Feature::UV1)) d.uv1 = uploadVertices(compute, "uv1", scene.uv1, pruned);
   if (features.has(Feature::VERTEX_COLORS))
-    d.colors = scene.colors.empty() ? Buffer{} : uploadVertices(compute, "colors", scene.colors, use);
-  TextureAtlas atlas(scene, use);
+    d.colors = scene.colors.empty() ? Buffer{} : uploadVertices(compute, "colors", scene.colors, pruned);
+  TextureAtlas atlas(scene, pruned);
   std::vector<device::DeviceMaterial> materials;
-  for (const auto& m : use.materials) materials.push_back(toDevice(m, atlas));
+  for (const auto& m : pruned.materials) materials.push_back(toDevice(m, atlas));
   if (materials.empty()) materials.push_back(toDevice(Material{}, atlas));
   d.materials = compute.upload("materials", materials);
   if (features.has(Feature::TEXTURES)) {
@@ -286,7 +286,7 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const SceneUse& us
     d.texels = compute.upload("texels", atlas.texels);
     d.linearFromSrgb = compute.upload("linearFromSrgb", srgbTable());
   }
-  const auto lights = lightsToDevice(scene, use);
+  const auto lights = lightsToDevice(scene, pruned);
   d.lightCount = static_cast<std::uint32_t>(lights.size());
   d.lights = compute.upload("lights", lights);
   if (features.has(Feature::BACKGROUND_MAP))

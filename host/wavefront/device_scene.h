@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/scene_features.h"
-#include "bvh/wide_tree.h"
+#include "bvh/bvh8.h"
 #include "cl/program.h"
 #include "report/stats.h"
 #include "scene/scene.h"
@@ -14,26 +14,26 @@ namespace whittle {
 
 struct DeviceScene {
   // In the order of SCENE_PARAMS (kernels/lib/scene.cl).
-  Buffer nodes, triangles, corners, wideCorners, normals, tangents, uv0, uv1, colors, materials, textures,
-      texels, linearFromSrgb, lights, background, wideNodes, leaves;
+  Buffer nodes, triangles, corners, indices32, normals, tangents, uv0, uv1, colors, materials, textures,
+      texels, linearFromSrgb, lights, background, bvh8Nodes, leaves;
   std::uint32_t triangleCount = 0;  ///< not counting the degenerate sentinel at the end
   std::uint32_t lightCount = 0;
 
   std::vector<const Buffer*> buffers() const {
-    return {&nodes,      &triangles, &corners,   &wideCorners, &normals, &tangents,       &uv0,
-            &uv1,        &colors,    &materials, &textures,    &texels,  &linearFromSrgb, &lights,
-            &background, &wideNodes, &leaves};
+    return {&nodes,      &triangles, &corners,   &indices32, &normals, &tangents,       &uv0,
+            &uv1,        &colors,    &materials, &textures,  &texels,  &linearFromSrgb, &lights,
+            &background, &bvh8Nodes, &leaves};
   }
   void report(std::vector<BufferStats>& out) const;
 };
 
-/// Uploads of `use` what `features` needs. Throws ClError naming the buffer that does not fit.
-DeviceScene uploadScene(Compute& compute, const Scene& scene, const SceneUse& use, const TriTree& tree,
+/// Uploads of `pruned` what `features` needs. Throws ClError naming the buffer that does not fit.
+DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, const TriTree& tree,
                         const SceneFeatures& features);
 /// Of the whole scene, for features that nothing analysed.
 inline DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tree,
                                const SceneFeatures& features) {
-  return uploadScene(compute, scene, wholeScene(scene), tree, features);
+  return uploadScene(compute, scene, unprunedScene(scene), tree, features);
 }
 
 }  // namespace whittle

@@ -1,6 +1,6 @@
 // Sixteen neighbouring rays, one in each lane of a float16, and what one triangle does to them. The arithmetic of a lane is
-// that of a single ray (triangle.cl, traverse_single.cl), bit for bit.
-#include "lib/traverse_single.cl"
+// that of a single ray (triangle.cl, traverse_bvh2.cl), bit for bit.
+#include "lib/traverse_bvh2.cl"
 
 #if HAS(PACKETS)
 
@@ -8,7 +8,7 @@ typedef struct {
   float16 o[3];
   float16 d[3];
   float16 inverse[3];
-  float16 nearBias[3], farBias[3];  // as in WideRay
+  float16 nearBias[3], farBias[3];  // as in Bvh8Ray
   float16 shear[3];                 // sx, sy, sz of each lane's own axes
   int16 kz;                         // largest axis of the direction
   int axes[3];                      // 1: some lane has this axis

@@ -51,7 +51,7 @@ INLINE void loadCorners(const SceneView* scene, uint triangleIndex, uint* corner
   const size_t first = (size_t)triangleIndex * 3;
   for (uint k = 0; k < 3; ++k) {
     const size_t at = first + k;
-    corner[k] = scene->corners ? scene->corners[at >> 1] >> (16 * (uint)(at & 1)) & 0xffffu : scene->wideCorners[at];
+    corner[k] = scene->corners ? scene->corners[at >> 1] >> (16 * (uint)(at & 1)) & 0xffffu : scene->indices32[at];
   }
 #else
   corner[0] = corner[1] = corner[2] = 0;  // nothing is interpolated, and the buffer is not there

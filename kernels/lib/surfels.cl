@@ -132,7 +132,7 @@ INLINE void cornersOf(const SceneView* scene, Natural triangleIndex, Natural* co
     corner[2] = halfway ? two >> 16 : two & 0xffffu;
     return;
   }
-  for (uint k = 0; k < 3; ++k) corner[k] = gatherWords(scene->wideCorners + k, first);
+  for (uint k = 0; k < 3; ++k) corner[k] = gatherWords(scene->indices32 + k, first);
 }
 #endif
 

@@ -6,7 +6,7 @@
 // and Arithmetic Culling Methods for Entire Ray Packets", 2006), then sixteen rays against each box that is left, and only
 // triangles whose own boxes the bounds meet are tested. Rays that share no way are walked one by one.
 #include "lib/packet.cl"
-#include "lib/traverse_wide.cl"
+#include "lib/traverse_bvh8.cl"
 
 #if HAS(PACKETS)
 
@@ -154,13 +154,13 @@ void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
     return;
   }
   // As a single ray's way (Walk), but that a child is looked at more closely before it is visited.
-  uint waiting[8 * WIDE_DEPTH];
-  int groups[WIDE_DEPTH];
+  uint waiting[8 * BVH8_DEPTH];
+  int groups[BVH8_DEPTH];
   int depth = 0, group = 0;
   float tMax = greatest16(best->t);
   uint limit = keyLimit(tMax);
   float8 entry;
-  uint8 keys = childKeys(packetChildren(&bounds, scene->wideNodes, tMax, &entry), entry);
+  uint8 keys = childKeys(packetChildren(&bounds, scene->bvh8Nodes, tMax, &entry), entry);
   for (;;) {
     const uint least = least8(keys);
     if (least > limit) {
@@ -171,7 +171,7 @@ void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
       continue;
     }
     keys = select(keys, (uint8)(NO_CHILD), as_uint8(keys == least));
-    __global const float* node = scene->wideNodes + (size_t)group * WIDE_NODE_FLOATS;
+    __global const float* node = scene->bvh8Nodes + (size_t)group * BVH8_NODE_FLOATS;
     if (!entersChild(p, &bounds, best->t, node, least & 7u)) continue;
     const int child = as_int(node[48 + (least & 7u)]);
     if (child < 0) {
@@ -187,7 +187,7 @@ void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
       }
       continue;
     }
-    const int8 entered = packetChildren(&bounds, scene->wideNodes + (size_t)child * WIDE_NODE_FLOATS, tMax, &entry);
+    const int8 entered = packetChildren(&bounds, scene->bvh8Nodes + (size_t)child * BVH8_NODE_FLOATS, tMax, &entry);
     vstore8(keys, depth, waiting);
     groups[depth] = group;
     depth += anyOf8(keys != NO_CHILD);
@@ -205,12 +205,12 @@ void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint
     *tMax = vload16(0, rays.t);
     return;
   }
-  uchar waiting[WIDE_DEPTH];
-  int groups[WIDE_DEPTH];
+  uchar waiting[BVH8_DEPTH];
+  int groups[BVH8_DEPTH];
   int depth = 0, group = 0;
   float end = greatest16(*tMax);
   float8 entry;
-  uint bits = laneBits(packetChildren(&bounds, scene->wideNodes, end, &entry));
+  uint bits = laneBits(packetChildren(&bounds, scene->bvh8Nodes, end, &entry));
   for (;;) {
     while (bits == 0) {
       if (depth == 0) return;
@@ -218,7 +218,7 @@ void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint
       bits = waiting[depth];
       group = groups[depth];
     }
-    __global const float* node = scene->wideNodes + (size_t)group * WIDE_NODE_FLOATS;
+    __global const float* node = scene->bvh8Nodes + (size_t)group * BVH8_NODE_FLOATS;
     const uint at = lowestBit(bits);
     bits &= bits - 1;
     if (!entersChild(p, &bounds, *tMax, node, at)) continue;
@@ -239,7 +239,7 @@ void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint
     waiting[depth] = (uchar)bits;
     groups[depth] = group;
     depth += bits != 0;
-    bits = laneBits(packetChildren(&bounds, scene->wideNodes + (size_t)child * WIDE_NODE_FLOATS, end, &entry));
+    bits = laneBits(packetChildren(&bounds, scene->bvh8Nodes + (size_t)child * BVH8_NODE_FLOATS, end, &entry));
     group = child;
   }
 }

@@ -44,7 +44,7 @@
   X(SAMPLER_RANDOM, 36, "random sampler")                         \
   X(SAMPLER_STRATIFIED, 37, "stratified sampler")                 \
   X(SAMPLER_SOBOL, 38, "Sobol sampler")                           \
-  X(FIXED_BUMP, 39, "fixed ray bump")                             \
+  X(FIXED_RAY_OFFSET, 39, "fixed ray offset")                     \
   X(AOVS, 40, "auxiliary outputs")                                \
   X(IMPULSES, 41, "impulse queue")                                \
   X(LIGHTS, 42, "direct light")                                   \
@@ -93,7 +93,7 @@
 #define BIT_SAMPLER_RANDOM 36
 #define BIT_SAMPLER_STRATIFIED 37
 #define BIT_SAMPLER_SOBOL 38
-#define BIT_FIXED_BUMP 39
+#define BIT_FIXED_RAY_OFFSET 39
 #define BIT_AOVS 40
 #define BIT_IMPULSES 41
 #define BIT_LIGHTS 42
@@ -113,7 +113,7 @@
 #define LONG_RUN 256    // a sample with more entries than this in one queue is cut into slices of this length
 #define PACKET_RAYS 16  // rays of a packet, with PACKETS; one for each work item without
 #define ENTRY_LANES 8   // entries that a work item of the other stages handles, likewise
-#define WIDE_DEPTH 64   // nodes on a way through the eight-wide tree; a deeper one is refused
+#define BVH8_DEPTH 64   // nodes on a way through the eight-wide tree; a deeper one is refused
 #define MAX_TREE_DEPTH 60  // traversal stack; the builder keeps to it
 
 #endif

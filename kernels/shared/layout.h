@@ -118,7 +118,7 @@ WHITTLE_STRUCT(DeviceCamera) {
 // Constants of a render that a kernel needs by value.
 WHITTLE_STRUCT(RenderConstants) {
   float background[3];
-  float bump;  // metres; < 0: derived at each hit
+  float rayOffset;  // metres; < 0: derived at each hit
   int backgroundWidth;
   int backgroundHeight;
   float mirrorRoughness;
@@ -159,7 +159,7 @@ WHITTLE_STRUCT(Batch) {
 #define HIT_PLANES_WITHOUT_T 3
 #define NO_HIT 0xffffffffu
 
-// Shadow candidates, one for each ray entry and light round: bumped origin, direction, length, contribution.
+// Shadow candidates, one for each ray entry and light round: offset origin, direction, length, contribution.
 #define SHADOW_O 0
 #define SHADOW_D 3
 #define SHADOW_LENGTH 6

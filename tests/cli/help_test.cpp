@@ -56,7 +56,7 @@ TEST(HelpOfRender, ShowsEachOptionOnceWithItsDefault) {
                              "--threads",
                              "--wavefront",
                              "--work-group",
-                             "--bump",
+                             "--ray-offset, --bump",
                              "--keep-all-features",
                              "--stats",
                              "--profile",

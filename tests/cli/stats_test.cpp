@@ -112,15 +112,35 @@ TEST(Stats, HoldsEveryKeyOfTheContract) {
               "memory", "error", "biasBound", "meanRadiance", "nonFinite", "dropped"},
              "top");
   expectKeys(s["scene"], {"file", "triangles", "materials", "lights", "textures"}, "scene");
-  expectKeys(s["settings"], {"output",       "width",       "height",
-                             "camera",       "exposure",    "bounces",
-                             "raysPerPixel", "shadows",     "search",
-                             "sampler",      "seed",        "impulses",
-                             "device",       "threads",     "wavefront",
-                             "workGroup",    "bump",        "keepAllFeatures",
-                             "stats",        "profile",     "trace",
-                             "reference",    "targetError", "timeLimit",
-                             "aov",          "quiet",       "relaxedArithmetic"},
+  expectKeys(s["settings"],
+             {"output",
+              "width",
+              "height",
+              "camera",
+              "exposure",
+              "bounces",
+              "raysPerPixel",
+              "shadows",
+              "search",
+              "sampler",
+              "seed",
+              "impulses",
+              "device",
+              "threads",
+              "wavefront",
+              "workGroup",
+              "rayOffset",
+              "bump",
+              "keepAllFeatures",
+              "stats",
+              "profile",
+              "trace",
+              "reference",
+              "targetError",
+              "timeLimit",
+              "aov",
+              "quiet",
+              "relaxedArithmetic"},
              "settings");
   expectKeys(s["device"], {"platform", "name", "version", "driver", "computeUnits", "threads"}, "device");
   expectKeys(s["features"], {"used", "kept", "leftOut"}, "features");
@@ -198,6 +218,7 @@ TEST(Stats, SettingsAreThoseAskedFor) {
   const auto s = statsOf({"--no-shadows", "--bump", "0.25", "--impulses", "one", "--sampler", "sobol",
                           "--seed", "7", "--rays-per-pixel", "2", "--search", "array"})["settings"];
   EXPECT_EQ(s["shadows"], false);
+  EXPECT_EQ(s["rayOffset"], 0.25);
   EXPECT_EQ(s["bump"], 0.25);
   EXPECT_EQ(s["impulses"], "one");
   EXPECT_EQ(s["sampler"], "sobol");
@@ -237,14 +258,14 @@ TEST(Stats, TheMeanIsThatOfThePicture) {
 
 TEST(Stats, FloatsAreTheDecimalsThatWereTyped) {
   const Folder folder;
-  ASSERT_EQ(runWhittle(smallRender({"--cutoff", "0.001", "--bump", "0.1", "--mirror-roughness", "0.15",
+  ASSERT_EQ(runWhittle(smallRender({"--cutoff", "0.001", "--ray-offset", "0.1", "--mirror-roughness", "0.15",
                                     "--exposure", "-0.7", "--stats", "s.json", "--quiet"}),
                        {folder.path(), {}})
                 .status,
             0);
   const std::string text = readText(folder / "s.json");
   for (const char* part :
-       {"\"cutoff\": 0.001,", "\"bump\": 0.1,", "\"mirrorRoughness\": 0.15,", "\"exposure\": -0.7,"})
+       {"\"cutoff\": 0.001,", "\"rayOffset\": 0.1,", "\"mirrorRoughness\": 0.15,", "\"exposure\": -0.7,"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 

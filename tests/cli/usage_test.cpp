@@ -56,7 +56,7 @@ std::vector<Mistake> mistakes() {
       {"BouncesTooMany", {"render", s, "--bounces", "99999999999999999999"}, {"--bounces", "1 to 4096"}},
       {"SeedNegative", {"render", s, "--seed", "-1"}, {"--seed", "'-1'"}},
       {"ExposureNan", {"render", s, "--exposure", "nan"}, {"--exposure", "'nan'"}},
-      {"BumpNegative", {"render", s, "--bump", "-1"}, {"--bump", "'-1'"}},
+      {"RayOffsetNegative", {"render", s, "--bump", "-1"}, {"--ray-offset", "'-1'"}},
       {"CutoffNegative", {"render", s, "--cutoff", "-0.1"}, {"--cutoff", "'-0.1'", "0 to 1000"}},
       {"CutoffNanToReference", {"reference", s, "-o", "a.exr", "--cutoff", "nan"}, {"--cutoff", "'nan'"}},
       {"TimeLimitWord", {"render", s, "--time-limit", "soon"}, {"--time-limit", "'soon'"}},

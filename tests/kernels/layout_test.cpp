@@ -81,7 +81,7 @@ std::vector<Field> hostFields() {
       FIELD(DeviceCamera, sampler),
       FIELD(DeviceCamera, pad),
       FIELD(RenderConstants, background),
-      FIELD(RenderConstants, bump),
+      FIELD(RenderConstants, rayOffset),
       FIELD(RenderConstants, backgroundWidth),
       FIELD(RenderConstants, backgroundHeight),
       FIELD(RenderConstants, mirrorRoughness),

@@ -56,7 +56,7 @@ std::uint32_t moved(T index, std::size_t by) {
 }
 
 /// Nodes beyond 2^32 bytes, triangles up to the last that a leaf can name.
-void moveTwoWide(Compute& compute, SearchBench& bench) {
+void moveBvh2(Compute& compute, SearchBench& bench) {
   auto nodes = contents<TreeNode>(compute, bench.deviceScene.nodes);
   auto triangles = contents<device::DeviceTriangle>(compute, bench.deviceScene.triangles);
   triangles.pop_back();  // the sentinel: every child is there
@@ -77,14 +77,14 @@ void moveTwoWide(Compute& compute, SearchBench& bench) {
 }
 
 /// Nodes beyond 2^32 bytes and 2^24 of them, leaves beyond 2^32 bytes; they hold the last triangles.
-void moveEightWide(Compute& compute, SearchBench& bench) {
-  auto nodes = contents<WideNode>(compute, bench.deviceScene.wideNodes);
+void moveBvh8(Compute& compute, SearchBench& bench) {
+  auto nodes = contents<Bvh8Node>(compute, bench.deviceScene.bvh8Nodes);
   auto triangles = contents<device::DeviceTriangle>(compute, bench.deviceScene.triangles);
   const auto leaves = contents<float>(compute, bench.deviceScene.leaves);
   triangles.pop_back();  // the sentinel, which nothing here points to
   const std::size_t byNodes = (std::size_t{1} << 24) + 3, byTriangles = kMaxTriangles - triangles.size();
   static_assert(kMaxTriangles * 9 * sizeof(float) > std::size_t{1} << 32);
-  for (WideNode& n : nodes)
+  for (Bvh8Node& n : nodes)
     for (int k = 0; k < 8; ++k) {
       std::int32_t& c = n.child[k];
       const auto leaf = static_cast<std::uint32_t>(~c);
@@ -94,7 +94,7 @@ void moveEightWide(Compute& compute, SearchBench& bench) {
     }
   for (device::DeviceTriangle& t : triangles) t.primitive = moved(t.primitive, byTriangles);
   bench.firstTriangle = static_cast<std::uint32_t>(byTriangles);
-  bench.deviceScene.wideNodes = sparse(compute, "wideNodes", byNodes + nodes.size(), {nodes[0]}, nodes);
+  bench.deviceScene.bvh8Nodes = sparse(compute, "bvh8Nodes", byNodes + nodes.size(), {nodes[0]}, nodes);
   bench.deviceScene.leaves = sparse(compute, "leaves", 9 * byTriangles + leaves.size(), {}, leaves);
   bench.deviceScene.triangles = sparse(compute, "triangles", kMaxTriangles, {}, triangles);
 }
@@ -126,9 +126,9 @@ TEST(IndexRange, ExactAtTheFarEndOfTheLargestScene) {
     const auto expected = bench.nearest(rays);
     const auto expectedBlocked = bench.occluded(rays, lengths);
     if (form.lanes != Lanes::One)
-      moveEightWide(lab.compute, bench);
+      moveBvh8(lab.compute, bench);
     else
-      moveTwoWide(lab.compute, bench);
+      moveBvh2(lab.compute, bench);
     EXPECT_GT(bench.firstTriangle, 1U << 24U);
     const auto hits = bench.nearest(rays);
     std::size_t different = 0, met = 0;

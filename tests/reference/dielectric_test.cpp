@@ -105,7 +105,7 @@ TEST(Slab, ShiftsALightRayAt45Degrees) {
     ASSERT_TRUE(surfel);
     const auto impulses = reference::impulsesOf(*surfel, -ray.direction);
     ASSERT_EQ(impulses.count, 2);
-    ray = {surfel->position - surfel->bump * surfel->facing, impulses.items[1].w_i};
+    ray = {surfel->position - surfel->rayOffset * surfel->facing, impulses.items[1].w_i};
   }
   EXPECT_NEAR(glm::length(ray.direction - w), 0, 1e-14);
   const Vec3 moved = ray.origin - Vec3(-1, 1, 0.3);
@@ -115,7 +115,7 @@ TEST(Slab, ShiftsALightRayAt45Degrees) {
 TEST(Slab, TotalReflectionInsideKeepsAllTheLight) {
   Probe probe(slabScene(glass(1.5F, true)));
   const double critical = std::asin(1 / 1.5);
-  for (int k = 2; k <= 9; ++k) {  // at 1e-9 rad the 1e-12 m bump does not matter yet
+  for (int k = 2; k <= 9; ++k) {  // at 1e-9 rad the 1e-12 m offset does not matter yet
     for (const double sign : {-1.0, 1.0}) {
       const double angle = critical + sign * std::pow(10.0, -k);
       const Ray ray{Vec3(0, -0.5, 0), Vec3(std::sin(angle), std::cos(angle), 0)};
@@ -165,7 +165,8 @@ TEST(Slab, AbsorbsByBeersLaw) {
     scene.materials.back().emission = glm::vec3(1);
     Probe probe(scene);
     const Vec3 seen = probe.Li({0, 1, 0}, {1, -1, 0});
-    EXPECT_NEAR(seen.x, std::exp(-sigma * std::sqrt(2.0)), 1e-11) << sigma;  // the bump shortens by 1.4e-12 m
+    EXPECT_NEAR(seen.x, std::exp(-sigma * std::sqrt(2.0)), 1e-11)
+        << sigma;  // the ray offset shortens by 1.4e-12 m
     EXPECT_EQ(seen.y, 1) << sigma;
   }
 }
@@ -187,7 +188,7 @@ TEST(Slab, NestedSolidsMeetWithTheRatioOfTheirIndices) {
   const auto water = probe.surfelAlong({Vec3(0, 1, 0), w});
   const Vec3 inWater = reference::impulsesOf(*water, -w).items[1].w_i;
   EXPECT_NEAR(inWater.x, w.x / 1.33, 1e-7);
-  const auto glassSurface = probe.surfelAlong({water->position - water->bump * water->facing, inWater});
+  const auto glassSurface = probe.surfelAlong({water->position - water->rayOffset * water->facing, inWater});
   ASSERT_TRUE(glassSurface);
   const Vec3 inGlass = reference::impulsesOf(*glassSurface, -inWater).items[1].w_i;
   EXPECT_NEAR(inGlass.x, w.x / 1.5, 1e-7)

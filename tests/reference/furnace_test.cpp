@@ -117,7 +117,7 @@ TEST(Mirrors, ACornerSendsLightBack) {
   const Vec3 start = ray.direction;
   int reflections = 0;
   while (const auto surfel = probe.surfelAlong(ray)) {
-    ray = {surfel->position + surfel->bump * surfel->facing,
+    ray = {surfel->position + surfel->rayOffset * surfel->facing,
            reference::impulsesOf(*surfel, -ray.direction).items[0].w_i};
     ++reflections;
     ASSERT_LT(reflections, 5);

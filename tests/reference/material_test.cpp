@@ -187,17 +187,19 @@ TEST(Surface, NormalMapsTiltAlongTheTangents) {
   EXPECT_EQ(Probe(scene).surfelAlong(ray)->n, Vec3(0, 1, 0)) << "no tangent, no map";
 }
 
-TEST(Surface, TheBumpScalesWithTheCoordinates) {
+TEST(Surface, TheRayOffsetScalesWithTheCoordinates) {
   Scene scene;
   const std::uint32_t m = addMaterial(scene, lambert(glm::vec3(1)));
   addQuad(scene, m, {-300, 2, -400}, {0, 0, 1000}, {1000, 0, 0});
   const Ray ray{Vec3(699, 3, -100), Vec3(0, -1, 0)};
-  const auto bump = [&](const Settings& settings) { return Probe(scene, settings).surfelAlong(ray)->bump; };
-  EXPECT_LE(bump(Settings{}), 700 * 0x1p-20);
-  EXPECT_GE(bump(Settings{}), 699 * 0x1p-20);
+  const auto rayOffset = [&](const Settings& settings) {
+    return Probe(scene, settings).surfelAlong(ray)->rayOffset;
+  };
+  EXPECT_LE(rayOffset(Settings{}), 700 * 0x1p-20);
+  EXPECT_GE(rayOffset(Settings{}), 699 * 0x1p-20);
   Settings fixed;
-  fixed.bump = 0.125F;
-  EXPECT_EQ(bump(fixed), 0.125);
+  fixed.rayOffset = 0.125F;
+  EXPECT_EQ(rayOffset(fixed), 0.125);
 }
 
 TEST(Surface, TexturesReachTheirSlots) {

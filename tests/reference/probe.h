@@ -88,7 +88,7 @@ inline Camera lookingDown(const std::string& name = "down") {
 /// An offset that is far below every tolerance, where an expected value knows of none.
 inline Settings exactSettings() {
   Settings settings;
-  settings.bump = 1e-12F;
+  settings.rayOffset = 1e-12F;
   return settings;
 }
 

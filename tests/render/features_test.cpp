@@ -101,8 +101,8 @@ TEST(Features, EachOneThatIsKeptIsCompiledInWithWhatItNeeds) {
       const std::uint64_t kept = features.bits() & ~without & ~bitOf(Feature::SAMPLER_RANDOM);
       EXPECT_EQ(kept & ~compiledIn(features), 0U) << featureText(f);
       for (const auto& line : features.lines()) {
-        EXPECT_EQ(line.kept, line.used && !(without & bitOf(line.feature))) << line.text;
-        EXPECT_EQ(!line.neededBy.empty(), line.kept && line.feature != f) << line.text;
+        EXPECT_EQ(line.forced, line.used && !(without & bitOf(line.feature))) << line.text;
+        EXPECT_EQ(!line.neededBy.empty(), line.forced && line.feature != f) << line.text;
       }
     }
 }
@@ -165,7 +165,7 @@ TEST(Features, EachOneThatASceneDoesNotNeedChangesNothing) {
     forced.keepFeatures = bitOf(line.feature);
     const RenderResult more = renderOnDevice(scene, forced);
     EXPECT_EQ(differingPixels(plain.radiance, more.radiance), 0U) << line.text;
-    const auto& kept = more.stats.featuresKept;
+    const auto& kept = more.stats.featuresForced;
     EXPECT_NE(std::find(kept.begin(), kept.end(), line.text), kept.end()) << line.text;
     EXPECT_EQ(more.stats.featuresUsed.size(), plain.stats.featuresUsed.size() + kept.size()) << line.text;
     ++tried;

@@ -123,8 +123,8 @@ TEST(DeviceSlab, ShiftsALightRayAt45DegreesAndKeepsItsDirection) {
     return 8 * static_cast<double>(seen.x / seen.y) - 4;
   };
   const double shallow = metX(2), deep = metX(5);
-  // The undisturbed ray meets the ground at −3 + depth. The two bumps of 4e-6 m go along the normal; 8 m are
-  // rounded.
+  // The undisturbed ray meets the ground at −3 + depth. The two ray offsets of 4e-6 m go along the normal; 8
+  // m are rounded.
   Worst shift, parallel;
   shift.absolute((-3 + 2 - shallow) * std::sqrt(0.5), 0.329142);
   record(
@@ -158,7 +158,7 @@ TEST(DeviceSlab, AbsorbsByBeersLaw) {
     worst.absolute(seen.x, std::exp(-sigma * std::sqrt(2.0)));
     worst.absolute(seen.y, 1);
     record({"21", fmt::format("√2 m of glass, σ = {:g}/m in red, 0 in green", sigma), "e^(−σ √2), 1",
-            worst.result(), worst.error(), "absolute", 4e-6});  // the bump shortens the way by 5e-6 m
+            worst.result(), worst.error(), "absolute", 4e-6});  // the ray offset shortens the way by 5e-6 m
   }
 }
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "programs/asked_features.h"
 #include "programs/compiler_process.h"
+#include "programs/referenced_features.h"
 #include "render/plan.h"
 #include "support/test_device.h"
 
@@ -17,29 +17,29 @@ constexpr std::uint64_t bit(Feature f) { return std::uint64_t{1} << static_cast<
 const std::uint64_t kTree = bit(Feature::TREE), kMirror = bit(Feature::MIRROR), kMetal = bit(Feature::METAL),
                     kUnlit = bit(Feature::UNLIT), kAll = kTree | kMirror | kMetal | kUnlit;
 
-TEST(AskedFeatures, WhatNoLineAsksForIsLeftOut) {
-  EXPECT_EQ(askedFeatures("", kAll), 0U);
-  EXPECT_EQ(askedFeatures("int a;\n#if HAS(TREE)\n#endif\n", kAll), kTree);
-  EXPECT_EQ(askedFeatures("#if HAS(TREE)\n#endif\n", kMirror), 0U) << "asked for, and not there";
-  EXPECT_EQ(askedFeatures("#if HAS(TREE)  // and HAS(METAL)\n#endif\n", kAll), kTree)
+TEST(ReferencedFeatures, WhatNoLineAsksForIsLeftOut) {
+  EXPECT_EQ(referencedFeatures("", kAll), 0U);
+  EXPECT_EQ(referencedFeatures("int a;\n#if HAS(TREE)\n#endif\n", kAll), kTree);
+  EXPECT_EQ(referencedFeatures("#if HAS(TREE)\n#endif\n", kMirror), 0U) << "asked for, and not there";
+  EXPECT_EQ(referencedFeatures("#if HAS(TREE)  // and HAS(METAL)\n#endif\n", kAll), kTree)
       << "a remark asks nothing";
 }
 
-TEST(AskedFeatures, OnlyTheBranchThatIsCompiledAsks) {
+TEST(ReferencedFeatures, OnlyTheBranchThatIsCompiledAsks) {
   const std::string nested =
       "#if HAS(TREE)\n#if HAS(MIRROR)\n#endif\n#else\n#if HAS(METAL)\n#endif\n#endif\n";
-  EXPECT_EQ(askedFeatures(nested, kAll), kTree | kMirror);
-  EXPECT_EQ(askedFeatures(nested, kAll & ~kTree), kMetal);
+  EXPECT_EQ(referencedFeatures(nested, kAll), kTree | kMirror);
+  EXPECT_EQ(referencedFeatures(nested, kAll & ~kTree), kMetal);
   const std::string chain =
       "#if HAS(TREE)\n#elif HAS(MIRROR)\n#if HAS(METAL)\n#endif\n#else\n#if HAS(UNLIT)\n#endif\n#endif\n";
-  EXPECT_EQ(askedFeatures(chain, kAll), kTree);
-  EXPECT_EQ(askedFeatures(chain, kAll & ~kTree), kMirror | kMetal);
-  EXPECT_EQ(askedFeatures(chain, kUnlit | kMetal), kUnlit);
+  EXPECT_EQ(referencedFeatures(chain, kAll), kTree);
+  EXPECT_EQ(referencedFeatures(chain, kAll & ~kTree), kMirror | kMetal);
+  EXPECT_EQ(referencedFeatures(chain, kUnlit | kMetal), kUnlit);
 }
 
-TEST(AskedFeatures, AConditionEndsWhereItsAnswerIsKnown) {
+TEST(ReferencedFeatures, AConditionEndsWhereItsAnswerIsKnown) {
   const auto asked = [](const std::string& condition, std::uint64_t bits) {
-    return askedFeatures("#if " + condition + "\n#if HAS(UNLIT)\n#endif\n#endif\n", bits);
+    return referencedFeatures("#if " + condition + "\n#if HAS(UNLIT)\n#endif\n#endif\n", bits);
   };
   EXPECT_EQ(asked("HAS(TREE) || HAS(MIRROR)", kAll), kTree | kUnlit);
   EXPECT_EQ(asked("HAS(TREE) || HAS(MIRROR)", kMirror | kUnlit), kMirror | kUnlit);
@@ -50,27 +50,28 @@ TEST(AskedFeatures, AConditionEndsWhereItsAnswerIsKnown) {
             kMetal | kMirror | kUnlit);
 }
 
-TEST(AskedFeatures, WhatIsNotAFeatureMayGoEitherWay) {
+TEST(ReferencedFeatures, WhatIsNotAFeatureMayGoEitherWay) {
   const std::string both = "#else\n#if HAS(MIRROR)\n#endif\n#endif\n";
   for (const char* condition : {"#if defined(__AVX__)\n", "#ifdef __clang__\n", "#ifndef X\n",
                                 "#if defined(__AVX__) && defined(__clang__)\n", "#if __VERSION__ >= 120\n",
                                 "#if defined(__AVX__) || !HAS(METAL)\n"})
-    EXPECT_EQ(askedFeatures(condition + std::string("#if HAS(TREE)\n#endif\n") + both, kAll & ~kMetal),
+    EXPECT_EQ(referencedFeatures(condition + std::string("#if HAS(TREE)\n#endif\n") + both, kAll & ~kMetal),
               condition == std::string("#if defined(__AVX__) || !HAS(METAL)\n") ? kTree : (kTree | kMirror))
         << condition;
 }
 
 /// A wrong number here is code for another layout of the queues: memory written past its end.
-TEST(AskedFeatures, LinesThatAreNoConditionsAskToo) {
-  EXPECT_EQ(askedFeatures("#define BRANCHES (HAS(MIRROR) ? 2 : 1)\n", kAll), kMirror);
-  EXPECT_EQ(askedFeatures("for (int k = 0; k < HAS(METAL) + HAS(TREE); ++k) f(k);\n", kAll), kMetal | kTree);
-  EXPECT_EQ(askedFeatures("#if HAS(TREE)\n#else\nint n = HAS(MIRROR);\n#endif\n", kAll), kTree);
-  EXPECT_EQ(askedFeatures("#define HAS(feature) ((SCENE_FEATURES >> BIT_##feature) & 1)\n", kAll), 0U);
-  EXPECT_EQ(askedFeatures("WAS_HAS(MIRROR) // HAS(METAL)\n", kAll), 0U);
+TEST(ReferencedFeatures, LinesThatAreNoConditionsAskToo) {
+  EXPECT_EQ(referencedFeatures("#define BRANCHES (HAS(MIRROR) ? 2 : 1)\n", kAll), kMirror);
+  EXPECT_EQ(referencedFeatures("for (int k = 0; k < HAS(METAL) + HAS(TREE); ++k) f(k);\n", kAll),
+            kMetal | kTree);
+  EXPECT_EQ(referencedFeatures("#if HAS(TREE)\n#else\nint n = HAS(MIRROR);\n#endif\n", kAll), kTree);
+  EXPECT_EQ(referencedFeatures("#define HAS(feature) ((SCENE_FEATURES >> BIT_##feature) & 1)\n", kAll), 0U);
+  EXPECT_EQ(referencedFeatures("WAS_HAS(MIRROR) // HAS(METAL)\n", kAll), 0U);
 }
 
-TEST(AskedFeatures, AFeatureThatDoesNotExistIsAnError) {
-  EXPECT_THROW(askedFeatures("#if HAS(NO_SUCH)\n#endif\n", 0), std::runtime_error);
+TEST(ReferencedFeatures, AFeatureThatDoesNotExistIsAnError) {
+  EXPECT_THROW(referencedFeatures("#if HAS(NO_SUCH)\n#endif\n", 0), std::runtime_error);
 }
 
 /// Point lights are what is left of the kinds, random places what is left of the samplers; the host alone

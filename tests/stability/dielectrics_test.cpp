@@ -100,8 +100,8 @@ TEST(CaseGlass, NestedSolidsTouchingAndOverlapping) {
                   water + (1 - water) * (1 - water) * glassWater);
   record({"22", "water over glass, each surface with its ratio", "R₁ + (1 − R₁)² R₂", nested.result(),
           nested.error(), "absolute", 1e-6});
-  // Both surfaces of touching solids at one height: the ray meets the lower index first and its bump passes
-  // the other, documented as one surface too few. What must hold: finite, and one of the two alone.
+  // Both surfaces of touching solids at one height: the ray meets the lower index first and its ray offset
+  // passes the other, documented as one surface too few. What must hold: finite, and one of the two alone.
   const double doubled = reflected({{0, 1.33F}, {0, 1.5F / 1.33F}});
   Worst both;
   both.absolute(doubled, water);

@@ -65,12 +65,12 @@ TEST(CaseMirrors, ATunnelOfDepth256) {
     const double expected = folded < 1 ? folded : 2 - folded;
     Worst worst;
     worst.absolute(rulerX(views.kernel.radiance, 4), expected);
-    // Each hit is bumped off its mirror by 2^-20 of its largest coordinate, to the inside: the way to the
+    // Each hit is moved off its mirror by 2^-20 of its largest coordinate, to the inside: the way to the
     // next is that much shorter, and a ray at 45° climbs that much less. Half of it again for rounding.
     double drift = 1e-6;
     for (int k = 0; k < depth; ++k) drift += 1.5 * 0x1p-20 * std::max(1.0, k + 0.25);
     record({"O7", fmt::format("a tunnel of mirrors, {} reflections at 45°", depth),
-            "where the unfolded ray meets the end, within the sum of the bumps", worst.result(),
+            "where the unfolded ray meets the end, within the sum of the ray offsets", worst.result(),
             worst.error(), "m", drift});
     EXPECT_EQ(views.kernel.stats.rays.impulse, static_cast<std::uint64_t>(depth));
   }
@@ -97,7 +97,7 @@ TEST(CaseMirrors, ACornerSendsLightBack) {
     met[k] = rulerX(views.kernel.radiance, 32);
     Worst worst;
     worst.absolute(met[k], expected(heights[k]));
-    // Three bumps of 2^-20 · 8 m at the most, and some roundings of 32 m in the ruler.
+    // Three ray offsets of 2^-20 · 8 m at the most, and some roundings of 32 m in the ruler.
     record({"26", fmt::format("three mirrors at right angles, 64 bounces; met {} m up", heights[k]),
             "beside the way in, mirrored in the corner", worst.result(), worst.error(), "m",
             2 * 3 * 8 * 0x1p-20 + 8 * 32 * 0x1p-24});

@@ -31,7 +31,7 @@ Scene gaps(double away, double widest) {
   return scene;
 }
 
-TEST(CaseSurfaces, GapsAreKeptDownToTheBump) {
+TEST(CaseSurfaces, GapsAreKeptDownToTheRayOffset) {
   for (const double away : {1.0, 100.0, 1e4, 1e6}) {
     const double widest = away >= 1e4 ? away / 16 : 1.0;
     const Scene scene = gaps(away, widest);
@@ -45,7 +45,7 @@ TEST(CaseSurfaces, GapsAreKeptDownToTheBump) {
     // sides.
     const double reach = std::max(away + 1.0 * std::max(1.0, away / 64), 13.0);
     record({"8", fmt::format("parallel squares {} m from the origin, gaps halved from {} m", away, widest),
-            "kept down to two bumps of 2^-20 of the distance",
+            "kept down to two ray offsets of 2^-20 of the distance",
             fmt::format("smallest kept {:.3g} m (double: {:.3g} m)", smallest, exact), smallest, "m",
             2 * reach * 0x1p-20});
   }

@@ -72,7 +72,7 @@ class SearchBench {
     auto& program = lab.programs[features.bits()];
     if (!program())
       program = compute_.build(
-          assembleKernelSource({"intersect.cl", "occlude.cl", "lib/bump.cl"}, testKernelFolder()) +
+          assembleKernelSource({"intersect.cl", "occlude.cl", "lib/ray_offset.cl"}, testKernelFolder()) +
               "#line 1 \"test kernels\"\n" + testKernels,
           buildOptions(features.bits(), 1024));
     stages.emplace(compute_, std::vector{program}, kWorkGroup);

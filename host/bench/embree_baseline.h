@@ -24,12 +24,12 @@ std::vector<EmbreeMode> embreeModes(bool robustOnly);
 bool haveEmbree();
 
 /// A scene in Embree's medium build quality, for the robust or the fast modes.
-class EmbreeYardstick {
+class EmbreeBaseline {
  public:
-  EmbreeYardstick(const Scene& scene, bool robust, int threads);
-  ~EmbreeYardstick();
-  EmbreeYardstick(const EmbreeYardstick&) = delete;
-  EmbreeYardstick& operator=(const EmbreeYardstick&) = delete;
+  EmbreeBaseline(const Scene& scene, bool robust, int threads);
+  ~EmbreeBaseline();
+  EmbreeBaseline(const EmbreeBaseline&) = delete;
+  EmbreeBaseline& operator=(const EmbreeBaseline&) = delete;
 
   double buildSeconds() const;
   /// Lays the rays out as Embree's structs; not timed.

@@ -1,9 +1,9 @@
-// The eight-wide tree (host/bvh/wide_tree.h) as searches see it: leaves, masks of eight lanes, the order of children.
-#include "lib/traverse_single.cl"
+// The eight-wide tree (host/bvh/bvh8.h) as searches see it: leaves, masks of eight lanes, the order of children.
+#include "lib/traverse_bvh2.cl"
 
 #if HAS(TREE) && HAS(PACKETS)
 
-#define WIDE_NODE_FLOATS 64   // lo[3][8], hi[3][8], child[8], pad
+#define BVH8_NODE_FLOATS 64   // lo[3][8], hi[3][8], child[8], pad
 
 /// Up to eight triangles: first, first + 1, … in leaf order.
 typedef struct {

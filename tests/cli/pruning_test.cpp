@@ -30,9 +30,9 @@ constexpr const char* kFile = R"({"asset": {"version": "2.0"},
   "bufferViews": [{"buffer": 0, "byteLength": 36}],
   "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 
-class Trimmed : public testing::Test {
+class PruningReport : public testing::Test {
  protected:
-  Trimmed() { std::ofstream(folder / "s.gltf") << kFile; }
+  PruningReport() { std::ofstream(folder / "s.gltf") << kFile; }
 
   std::string info(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> args{"info", "s.gltf", "--quiet"};
@@ -45,7 +45,7 @@ class Trimmed : public testing::Test {
   const Folder folder;
 };
 
-TEST_F(Trimmed, TextNamesEachThingWithItsReason) {
+TEST_F(PruningReport, TextNamesEachThingWithItsReason) {
   const std::string text = info();
   for (const char* part :
        {"Not sent to the device\n", "1 of 2 materials: 1 like another\n",
@@ -57,7 +57,7 @@ TEST_F(Trimmed, TextNamesEachThingWithItsReason) {
   EXPECT_NE(info({"--keep-all-features"}).find("Not sent to the device\n  nothing\n"), std::string::npos);
 }
 
-TEST_F(Trimmed, JsonHoldsTheSame) {
+TEST_F(PruningReport, JsonHoldsTheSame) {
   const auto trimmed = nlohmann::json::parse(info({"--json"}))["features"]["trimmed"];
   EXPECT_EQ(trimmed["materials"], nlohmann::json({{"all", 2}, {"kept", 1}, {"unused", 0}, {"alike", 1}}));
   EXPECT_EQ(trimmed["lights"]["kept"], 1);

@@ -1,5 +1,5 @@
 // From the triangles to their materials, from those to the images and vertices they read.
-#include "analysis/scene_use.h"
+#include "analysis/pruned_scene.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -14,7 +14,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "analysis/image_merge.h"
+#include "analysis/duplicate_images.h"
 #include "analysis/light_reach.h"
 #include "analysis/material_use.h"
 
@@ -72,7 +72,8 @@ std::vector<AlphaBounds> vertexAlphas(const Scene& scene) {
 }
 
 /// Needless masks and blends become opaque. `read`: the materials as read, `used`: those that triangles have.
-void dropNeedlessAlpha(const Scene& scene, const Flags& used, std::vector<Material>& read, Trimmed& trimmed) {
+void dropNeedlessAlpha(const Scene& scene, const Flags& used, std::vector<Material>& read,
+                       PruningReport& pruning) {
   std::vector<AlphaBounds> colours;
   std::unordered_map<int, int> leastTexels;  // by image
   for (std::size_t i = 0; i < read.size(); ++i) {
@@ -92,14 +93,14 @@ void dropNeedlessAlpha(const Scene& scene, const Flags& used, std::vector<Materi
       source.colours = colours[i];
     }
     if (!needless()) continue;
-    ++(m.alphaMode == AlphaMode::Mask ? trimmed.needlessMasks : trimmed.needlessBlends);
+    ++(m.alphaMode == AlphaMode::Mask ? pruning.needlessMasks : pruning.needlessBlends);
     m.alphaMode = AlphaMode::Opaque;
     m.alphaCutoff = Material{}.alphaCutoff;
   }
 }
 
 /// Slots of alike images name one of them.
-void shareImages(const Scene& scene, const Flags& used, std::vector<Material>& read, Trimmed& trimmed) {
+void shareImages(const Scene& scene, const Flags& used, std::vector<Material>& read, PruningReport& pruning) {
   Flags wanted(scene.images.size());
   for (std::size_t i = 0; i < read.size(); ++i)
     for (const TextureSlot* slot : readSlots(std::as_const(read[i])))
@@ -108,41 +109,41 @@ void shareImages(const Scene& scene, const Flags& used, std::vector<Material>& r
   for (Material& m : read)
     for (TextureSlot* slot : readSlots(m))
       if (slot->used()) slot->image = static_cast<int>(first[static_cast<std::size_t>(slot->image)]);
-  trimmed.images.all = scene.images.size();
+  pruning.images.all = scene.images.size();
   for (std::uint32_t i = 0; i < first.size(); ++i) {
-    trimmed.images.unused += !wanted[i];
-    trimmed.images.alike += first[i] != i;
+    pruning.images.unused += !wanted[i];
+    pruning.images.alike += first[i] != i;
   }
 }
 
 /// One of each kind of material that triangles have.
-void keepMaterials(const Flags& used, const std::vector<Material>& read, SceneUse& use) {
+void keepMaterials(const Flags& used, const std::vector<Material>& read, PrunedScene& pruned) {
   std::unordered_map<std::string, std::uint32_t> known;
-  use.materialOf.assign(read.size(), kNotUsed);
-  use.trimmed.materials.all = read.size();
+  pruned.materialOf.assign(read.size(), kNotUsed);
+  pruned.pruning.materials.all = read.size();
   for (std::size_t i = 0; i < read.size(); ++i) {
     if (!used[i]) {
-      ++use.trimmed.materials.unused;
+      ++pruned.pruning.materials.unused;
       continue;
     }
     const auto [at, isNew] =
-        known.try_emplace(bitsOf(read[i]), static_cast<std::uint32_t>(use.materials.size()));
-    if (isNew) use.materials.push_back(read[i]);
-    use.trimmed.materials.alike += !isNew;
-    use.materialOf[i] = at->second;
+        known.try_emplace(bitsOf(read[i]), static_cast<std::uint32_t>(pruned.materials.size()));
+    if (isNew) pruned.materials.push_back(read[i]);
+    pruned.pruning.materials.alike += !isNew;
+    pruned.materialOf[i] = at->second;
   }
 }
 
 /// The images that kept materials read, and their slots' numbers of them.
-void keepImages(std::size_t imageCount, SceneUse& use) {
+void keepImages(std::size_t imageCount, PrunedScene& pruned) {
   std::vector<std::uint32_t> imageOf(imageCount, kNotUsed);
-  for (Material& m : use.materials)
+  for (Material& m : pruned.materials)
     for (TextureSlot* slot : readSlots(m)) {
       if (!slot->used()) continue;
       std::uint32_t& at = imageOf[static_cast<std::size_t>(slot->image)];
       if (at == kNotUsed) {
-        at = static_cast<std::uint32_t>(use.images.size());
-        use.images.push_back(static_cast<std::uint32_t>(slot->image));
+        at = static_cast<std::uint32_t>(pruned.images.size());
+        pruned.images.push_back(static_cast<std::uint32_t>(slot->image));
       }
       slot->image = static_cast<int>(at);
     }
@@ -160,27 +161,27 @@ LitBounds boundsForLights(const Scene& scene, const Flags& lit) {
   return bounds;
 }
 
-void keepLights(const Scene& scene, SceneUse& use) {
-  use.trimmed.lights = scene.lights.size();
+void keepLights(const Scene& scene, PrunedScene& pruned) {
+  pruned.pruning.lights = scene.lights.size();
   if (scene.lights.empty()) return;
   Flags lit(scene.materials.size());
   for (std::size_t i = 0; i < lit.size(); ++i)
-    lit[i] = use.materialOf[i] != kNotUsed && !use.materials[use.materialOf[i]].unlit;
+    lit[i] = pruned.materialOf[i] != kNotUsed && !pruned.materials[pruned.materialOf[i]].unlit;
   const LitBounds bounds = boundsForLights(scene, lit);
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const std::string reason = whyDark(scene.lights[i], bounds);
     if (reason.empty())
-      use.lights.push_back(i);
+      pruned.lights.push_back(i);
     else
-      use.trimmed.droppedLights.push_back({i, scene.lights[i].name, reason});
+      pruned.pruning.droppedLights.push_back({i, scene.lights[i].name, reason});
   }
 }
 
 /// Leaves out the vertices that no triangle has, if there are any and vertices carry anything at all.
-void keepVertices(const Scene& scene, SceneUse& use) {
+void keepVertices(const Scene& scene, PrunedScene& pruned) {
   const std::size_t count = scene.positions.size();
-  use.trimmed.vertices.all = use.vertexCount = count;
-  if (scene.normals.empty() && scene.colors.empty() && use.images.empty()) return;
+  pruned.pruning.vertices.all = pruned.vertexCount = count;
+  if (scene.normals.empty() && scene.colors.empty() && pruned.images.empty()) return;
   Flags used(count);
   tbb::parallel_for(Range(0, scene.triangles.size(), kGrain), [&](const Range& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -191,45 +192,45 @@ void keepVertices(const Scene& scene, SceneUse& use) {
   });
   const auto unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), 0));
   if (unused == 0) return;
-  use.trimmed.vertices.unused = unused;
-  use.vertexCount = count - unused;
-  use.vertexOf.resize(count);
+  pruned.pruning.vertices.unused = unused;
+  pruned.vertexCount = count - unused;
+  pruned.vertexOf.resize(count);
   std::uint32_t next = 0;
-  for (std::size_t v = 0; v < count; ++v) use.vertexOf[v] = used[v] ? next++ : kNotUsed;
+  for (std::size_t v = 0; v < count; ++v) pruned.vertexOf[v] = used[v] ? next++ : kNotUsed;
 }
 
 }  // namespace
 
-SceneUse wholeScene(const Scene& scene) {
-  SceneUse use;
-  use.materials = scene.materials;
-  use.materialOf = identity(scene.materials.size());
-  use.images = identity(scene.images.size());
-  use.lights = identity(scene.lights.size());
-  use.vertexCount = scene.positions.size();
-  use.trimmed.materials.all = scene.materials.size();
-  use.trimmed.images.all = scene.images.size();
-  use.trimmed.vertices.all = scene.positions.size();
-  use.trimmed.lights = scene.lights.size();
-  return use;
+PrunedScene unprunedScene(const Scene& scene) {
+  PrunedScene pruned;
+  pruned.materials = scene.materials;
+  pruned.materialOf = identity(scene.materials.size());
+  pruned.images = identity(scene.images.size());
+  pruned.lights = identity(scene.lights.size());
+  pruned.vertexCount = scene.positions.size();
+  pruned.pruning.materials.all = scene.materials.size();
+  pruned.pruning.images.all = scene.images.size();
+  pruned.pruning.vertices.all = scene.positions.size();
+  pruned.pruning.lights = scene.lights.size();
+  return pruned;
 }
 
-SceneUse useOf(const Scene& scene, const Settings& settings) {
-  if (settings.keepAllFeatures) return wholeScene(scene);
-  SceneUse use;
-  use.sharesSlots = true;
+PrunedScene pruneScene(const Scene& scene, const Settings& settings) {
+  if (settings.keepAllFeatures) return unprunedScene(scene);
+  PrunedScene pruned;
+  pruned.sharesSlots = true;
   const Flags used = usedMaterials(scene);
   std::vector<Material> read;
   read.reserve(scene.materials.size());
   for (const Material& m : scene.materials) read.push_back(asRead(m, settings));
-  shareImages(scene, used, read, use.trimmed);
-  dropNeedlessAlpha(scene, used, read, use.trimmed);
-  keepMaterials(used, read, use);
-  keepImages(scene.images.size(), use);
-  keepLights(scene, use);
-  keepVertices(scene, use);
-  use.narrowCorners = use.vertexCount <= kNarrowVertices;
-  return use;
+  shareImages(scene, used, read, pruned.pruning);
+  dropNeedlessAlpha(scene, used, read, pruned.pruning);
+  keepMaterials(used, read, pruned);
+  keepImages(scene.images.size(), pruned);
+  keepLights(scene, pruned);
+  keepVertices(scene, pruned);
+  pruned.narrowCorners = pruned.vertexCount <= kNarrowVertices;
+  return pruned;
 }
 
 }  // namespace whittle

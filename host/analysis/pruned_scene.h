@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/trimmed.h"
+#include "analysis/pruning_report.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
@@ -18,7 +18,7 @@ inline constexpr std::size_t kNarrowVertices = 1 << 16;
 inline constexpr std::uint32_t kNotUsed = 0xffffffffU;
 
 /// Tables from the scene to the device.
-struct SceneUse {
+struct PrunedScene {
   std::vector<Material> materials;  ///< as the device gets them; their slots' `image` counts in `images`
   std::vector<std::uint32_t> materialOf;  ///< [Scene::materials] index into `materials`, or kNotUsed
   std::vector<std::uint32_t> images;      ///< indices into Scene::images
@@ -28,13 +28,13 @@ struct SceneUse {
   std::size_t vertexCount = 0;  ///< on the device
   bool narrowCorners = false;   ///< triangles name their vertices by 16 bits each, not by 32
   bool sharesSlots = false;     ///< identical texture slots are stored once
-  Trimmed trimmed;
+  PruningReport pruning;
 };
 
 /// The whole scene, nothing left out.
-SceneUse wholeScene(const Scene& scene);
+PrunedScene unprunedScene(const Scene& scene);
 
-/// Only what the picture needs; wholeScene with settings.keepAllFeatures. Linear in the scene's size.
-SceneUse useOf(const Scene& scene, const Settings& settings);
+/// Only what the picture needs; unprunedScene with settings.keepAllFeatures. Linear in the scene's size.
+PrunedScene pruneScene(const Scene& scene, const Settings& settings);
 
 }  // namespace whittle

@@ -14,16 +14,16 @@ namespace whittle {
 /// Eight children, boxes as a struct of arrays. A child >= 0 is a node, < 0 the leaf ~child = first << 3 |
 /// count - 1: triangles order[first], order[first + 1], … of the TriTree, at most eight. Absent children have
 /// an empty box (lo = +inf, hi = -inf).
-struct WideNode {
+struct Bvh8Node {
   float lo[3][8];
   float hi[3][8];
   std::int32_t child[8];
   std::int32_t pad[8];
 };
-static_assert(sizeof(WideNode) == 256);
+static_assert(sizeof(Bvh8Node) == 256);
 
-struct WideTree {
-  UninitializedVector<WideNode> nodes;  ///< nodes[0] is the root
+struct Bvh8 {
+  UninitializedVector<Bvh8Node> nodes;  ///< nodes[0] is the root
   /// Corners of the triangles, m, leaf by leaf as a struct of arrays: coordinate `axis` of corner k of
   /// triangle first + lane is corners[9 first + (3 k + axis) count + lane]. Eight floats more at the end, so
   /// that a lane beyond the last leaf's count may be read.
@@ -36,7 +36,7 @@ struct WideTree {
 /// become nodes of their own, which are handed up to their parent's free lanes, which become leaves (Ylitie,
 /// Karras, Laine 2017). Opening the child of the largest box until there are eight instead leaves half of the
 /// lanes empty. Parallel with TBB over the calling arena's threads; the result depends on the input alone.
-WideTree buildWideTree(const TriTree& tree, std::span<const glm::vec3> positions,
-                       std::span<const glm::uvec3> triangles);
+Bvh8 buildBvh8(const TriTree& tree, std::span<const glm::vec3> positions,
+               std::span<const glm::uvec3> triangles);
 
 }  // namespace whittle

@@ -1,6 +1,6 @@
-// See embree_yardstick.h. Rays are copied from arrays of Embree's structs, block by block, and results
+// See embree_baseline.h. Rays are copied from arrays of Embree's structs, block by block, and results
 // written back to arrays: what any user of Embree does.
-#include "bench/embree_yardstick.h"
+#include "bench/embree_baseline.h"
 
 #include <fmt/format.h>
 
@@ -52,7 +52,7 @@ constexpr std::size_t kBlock = 8, kGrain = 512;  // blocks of rays; blocks a tas
 
 }  // namespace
 
-struct EmbreeYardstick::State {
+struct EmbreeBaseline::State {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   double buildSeconds = 0;
@@ -78,7 +78,7 @@ struct EmbreeYardstick::State {
   }
 };
 
-EmbreeYardstick::EmbreeYardstick(const Scene& scene, bool robust, int threads)
+EmbreeBaseline::EmbreeBaseline(const Scene& scene, bool robust, int threads)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
   const int used = threads > 0 ? threads : tbb::this_task_arena::max_concurrency();
@@ -110,14 +110,14 @@ EmbreeYardstick::EmbreeYardstick(const Scene& scene, bool robust, int threads)
   rtcReleaseGeometry(mesh);
 }
 
-EmbreeYardstick::~EmbreeYardstick() {
+EmbreeBaseline::~EmbreeBaseline() {
   rtcReleaseScene(state_->scene);
   rtcReleaseDevice(state_->device);
 }
 
-double EmbreeYardstick::buildSeconds() const { return state_->buildSeconds; }
+double EmbreeBaseline::buildSeconds() const { return state_->buildSeconds; }
 
-void EmbreeYardstick::load(const RaySet& rays) {
+void EmbreeBaseline::load(const RaySet& rays) {
   State& s = *state_;
   s.count = rays.size();
   const std::size_t padded = (s.count + kBlock - 1) / kBlock * kBlock;
@@ -151,7 +151,7 @@ void EmbreeYardstick::load(const RaySet& rays) {
   }
 }
 
-double EmbreeYardstick::nearest(const EmbreeMode& mode) {
+double EmbreeBaseline::nearest(const EmbreeMode& mode) {
   State& s = *state_;
   const auto hitOf = [](float t, unsigned geometry, unsigned primitive) {
     return QueryHit{t, 0, 0, geometry == RTC_INVALID_GEOMETRY_ID ? -1 : std::int64_t{primitive}};
@@ -181,7 +181,7 @@ double EmbreeYardstick::nearest(const EmbreeMode& mode) {
   });
 }
 
-double EmbreeYardstick::any(const EmbreeMode& mode) {
+double EmbreeBaseline::any(const EmbreeMode& mode) {
   State& s = *state_;
   if (mode.width == 1)
     return s.timed([&](std::size_t block) {
@@ -201,26 +201,26 @@ double EmbreeYardstick::any(const EmbreeMode& mode) {
   });
 }
 
-const std::vector<QueryHit>& EmbreeYardstick::hits() const { return state_->hits; }
-const std::vector<std::uint8_t>& EmbreeYardstick::blocked() const { return state_->blocked; }
+const std::vector<QueryHit>& EmbreeBaseline::hits() const { return state_->hits; }
+const std::vector<std::uint8_t>& EmbreeBaseline::blocked() const { return state_->blocked; }
 
 #else
 
 bool haveEmbree() { return false; }
 
-struct EmbreeYardstick::State {
+struct EmbreeBaseline::State {
   std::vector<QueryHit> hits;
   std::vector<std::uint8_t> blocked;
 };
 
-EmbreeYardstick::EmbreeYardstick(const Scene&, bool, int) : state_(std::make_unique<State>()) {}
-EmbreeYardstick::~EmbreeYardstick() = default;
-double EmbreeYardstick::buildSeconds() const { return 0; }
-void EmbreeYardstick::load(const RaySet&) {}
-double EmbreeYardstick::nearest(const EmbreeMode&) { return 0; }
-double EmbreeYardstick::any(const EmbreeMode&) { return 0; }
-const std::vector<QueryHit>& EmbreeYardstick::hits() const { return state_->hits; }
-const std::vector<std::uint8_t>& EmbreeYardstick::blocked() const { return state_->blocked; }
+EmbreeBaseline::EmbreeBaseline(const Scene&, bool, int) : state_(std::make_unique<State>()) {}
+EmbreeBaseline::~EmbreeBaseline() = default;
+double EmbreeBaseline::buildSeconds() const { return 0; }
+void EmbreeBaseline::load(const RaySet&) {}
+double EmbreeBaseline::nearest(const EmbreeMode&) { return 0; }
+double EmbreeBaseline::any(const EmbreeMode&) { return 0; }
+const std::vector<QueryHit>& EmbreeBaseline::hits() const { return state_->hits; }
+const std::vector<std::uint8_t>& EmbreeBaseline::blocked() const { return state_->blocked; }
 
 #endif
 

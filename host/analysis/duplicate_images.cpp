@@ -1,5 +1,5 @@
 // Images sorted by size and a hash of their texels; only neighbours with equal keys are compared.
-#include "analysis/image_merge.h"
+#include "analysis/duplicate_images.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

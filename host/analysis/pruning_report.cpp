@@ -1,10 +1,10 @@
 // Names are a contract with scripts, as those of stats.cpp.
-#include "analysis/trimmed.h"
+#include "analysis/pruning_report.h"
 
 namespace whittle {
 
-nlohmann::ordered_json trimmedToJson(const Trimmed& t) {
-  const auto things = [](const Trimmed::Things& c) {
+nlohmann::ordered_json pruningToJson(const PruningReport& t) {
+  const auto things = [](const PruningReport::Things& c) {
     return nlohmann::ordered_json{
         {"all", c.all}, {"kept", c.kept()}, {"unused", c.unused}, {"alike", c.alike}};
   };

@@ -1,5 +1,5 @@
 // What stays on the host: each rule on a scene that it fits, and on one that misses it by a hair.
-#include "analysis/scene_use.h"
+#include "analysis/pruned_scene.h"
 
 #include <cmath>
 #include <limits>
@@ -18,10 +18,10 @@ Scene squares(const std::vector<Material>& materials) {
   return scene;
 }
 
-SceneUse used(const Scene& scene, bool aovs = false) {
+PrunedScene used(const Scene& scene, bool aovs = false) {
   Settings settings;
   settings.aovs = aovs;
-  return useOf(scene, settings);
+  return pruneScene(scene, settings);
 }
 
 Image image(int width, int height, std::vector<std::uint8_t> texels) {
@@ -47,11 +47,11 @@ TEST(SceneUseMaterials, ThoseWithoutATriangleGo) {
   Scene scene = squares({lambert({1, 0, 0}), lambert({0, 1, 0}), lambert({0, 0, 1})});
   for (Triangle& t : scene.triangles)
     if (t.material == 1) t.material = 2;
-  const SceneUse use = used(scene);
-  EXPECT_EQ(use.materialOf, (std::vector<std::uint32_t>{0, kNotUsed, 1}));
-  EXPECT_EQ(use.materials.at(1).baseColor, glm::vec4(0, 0, 1, 1));
-  EXPECT_EQ(use.trimmed.materials.unused, 1U);
-  EXPECT_EQ(use.trimmed.materials.kept(), 2U);
+  const PrunedScene pruned = used(scene);
+  EXPECT_EQ(pruned.materialOf, (std::vector<std::uint32_t>{0, kNotUsed, 1}));
+  EXPECT_EQ(pruned.materials.at(1).baseColor, glm::vec4(0, 0, 1, 1));
+  EXPECT_EQ(pruned.pruning.materials.unused, 1U);
+  EXPECT_EQ(pruned.pruning.materials.kept(), 2U);
 }
 
 TEST(SceneUseMaterials, AlikeInEveryBitBecomeOne) {
@@ -107,7 +107,7 @@ TEST(SceneUseMaterials, UnlitOnesShowTheirColourOnly) {
 }
 
 /// Two materials with a base colour texture each.
-SceneUse withImages(const Image& a, const Image& b) {
+PrunedScene withImages(const Image& a, const Image& b) {
   Material first = lambert(glm::vec3(1)), second = lambert(glm::vec3(0.5F));
   first.baseColorTexture = reading(0);
   second.baseColorTexture = reading(1);
@@ -117,10 +117,10 @@ SceneUse withImages(const Image& a, const Image& b) {
 }
 
 TEST(SceneUseImages, EqualOnesAreStoredOnce) {
-  const SceneUse use = withImages(opaqueImage(), opaqueImage());
-  EXPECT_EQ(use.images, std::vector<std::uint32_t>{0});
-  EXPECT_EQ(use.materials.at(1).baseColorTexture.image, 0);
-  EXPECT_EQ(use.trimmed.images.alike, 1U);
+  const PrunedScene pruned = withImages(opaqueImage(), opaqueImage());
+  EXPECT_EQ(pruned.images, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(pruned.materials.at(1).baseColorTexture.image, 0);
+  EXPECT_EQ(pruned.pruning.images.alike, 1U);
 }
 
 TEST(SceneUseImages, OneTexelOrTheSizeKeepsThemApart) {
@@ -141,10 +141,10 @@ TEST(SceneUseImages, ThoseThatNobodyReadsGo) {
   Scene scene = squares({m});
   addMaterial(scene, unused);
   for (std::uint8_t i = 0; i < 5; ++i) scene.images.push_back(image(1, 1, {i, i, i, 255}));
-  const SceneUse use = used(scene);
-  EXPECT_EQ(use.images, std::vector<std::uint32_t>{3});
-  EXPECT_EQ(use.materials.at(0).normalTexture.image, 0);
-  EXPECT_EQ(use.trimmed.images.unused, 4U);
+  const PrunedScene pruned = used(scene);
+  EXPECT_EQ(pruned.images, std::vector<std::uint32_t>{3});
+  EXPECT_EQ(pruned.materials.at(0).normalTexture.image, 0);
+  EXPECT_EQ(pruned.pruning.images.unused, 4U);
   scene.materials[0].emission.b = 1e-30F;
   EXPECT_EQ(used(scene).images, (std::vector<std::uint32_t>{3, 1}));
 }
@@ -157,9 +157,9 @@ TEST(SceneUseVertices, OnlyUnusedOnesMakeATable) {
   scene.positions.insert(scene.positions.begin(), glm::vec3(9));
   scene.normals.insert(scene.normals.begin(), glm::vec3(1, 0, 0));
   for (Triangle& t : scene.triangles) ++t.v0, ++t.v1, ++t.v2;
-  const SceneUse use = used(scene);
-  EXPECT_EQ(use.vertexOf, (std::vector<std::uint32_t>{kNotUsed, 0, 1, 2, 3}));
-  EXPECT_EQ(use.vertexCount, 4U);
+  const PrunedScene pruned = used(scene);
+  EXPECT_EQ(pruned.vertexOf, (std::vector<std::uint32_t>{kNotUsed, 0, 1, 2, 3}));
+  EXPECT_EQ(pruned.vertexCount, 4U);
   scene.normals.clear();
   EXPECT_TRUE(used(scene).vertexOf.empty()) << "positions go with their triangles";
 }
@@ -172,7 +172,7 @@ TEST(SceneUseVertices, ThoseInUseDecideHowWideTheirIndicesAre) {
     scene.triangles.push_back({v, v + 1, std::min(v + 2, 65535U), 0});
   EXPECT_EQ(used(scene).vertexCount, 65536U);
   EXPECT_TRUE(used(scene).narrowCorners) << "one is not used";
-  EXPECT_FALSE(wholeScene(scene).narrowCorners);
+  EXPECT_FALSE(unprunedScene(scene).narrowCorners);
   scene.triangles[0].v0 = 65536;
   scene.triangles[1].v0 = 65536;
   EXPECT_TRUE(used(scene).narrowCorners) << "now it is, and vertex 0 is not";
@@ -185,9 +185,9 @@ TEST(SceneUseVertices, ThoseInUseDecideHowWideTheirIndicesAre) {
 std::string darkBecause(const Light& light, const Material& floor = lambert(glm::vec3(1))) {
   Scene scene = squares({floor});
   scene.lights = {light};
-  const SceneUse use = used(scene);
-  EXPECT_EQ(use.lights.size() + use.trimmed.droppedLights.size(), 1U);
-  return use.lights.empty() ? use.trimmed.droppedLights[0].reason : "";
+  const PrunedScene pruned = used(scene);
+  EXPECT_EQ(pruned.lights.size() + pruned.pruning.droppedLights.size(), 1U);
+  return pruned.lights.empty() ? pruned.pruning.droppedLights[0].reason : "";
 }
 
 TEST(SceneUseLights, BlackOnesGoAndStrangeOnesStay) {
@@ -253,11 +253,11 @@ TEST(SceneUseLights, OrderAndNamesAreKept) {
   for (const float intensity : {1.0F, 0.0F, 2.0F, 3.0F})
     scene.lights.push_back(pointLight({0, intensity, 0}, intensity));
   scene.lights[1].name = "burnt out";
-  const SceneUse use = used(scene);
-  EXPECT_EQ(use.lights, (std::vector<std::uint32_t>{0, 2, 3}));
-  ASSERT_EQ(use.trimmed.droppedLights.size(), 1U);
-  EXPECT_EQ(use.trimmed.droppedLights[0].index, 1U);
-  EXPECT_EQ(use.trimmed.droppedLights[0].name, "burnt out");
+  const PrunedScene pruned = used(scene);
+  EXPECT_EQ(pruned.lights, (std::vector<std::uint32_t>{0, 2, 3}));
+  ASSERT_EQ(pruned.pruning.droppedLights.size(), 1U);
+  EXPECT_EQ(pruned.pruning.droppedLights[0].index, 1U);
+  EXPECT_EQ(pruned.pruning.droppedLights[0].name, "burnt out");
 }
 
 Material alpha(AlphaMode mode, float factor, bool textured = false) {
@@ -313,7 +313,7 @@ TEST(SceneUseAlpha, ABlendIsOpaqueOnlyWhereItsAlphaIsExactlyOne) {
       << "weights do not add up to 1 exactly";
 }
 
-TEST(SceneUse, KeepAllFeaturesKeepsEverything) {
+TEST(PrunedScene, KeepAllFeaturesKeepsEverything) {
   Scene scene = squares({alpha(AlphaMode::Blend, 1), alpha(AlphaMode::Blend, 1)});
   addMaterial(scene, lambert(glm::vec3(1)));
   scene.images = {opaqueImage(), opaqueImage()};
@@ -322,12 +322,12 @@ TEST(SceneUse, KeepAllFeaturesKeepsEverything) {
   scene.lights = {pointLight({0, 1, 0}, 0)};
   Settings settings;
   settings.keepAllFeatures = true;
-  const SceneUse use = useOf(scene, settings);
-  EXPECT_EQ(use.materialOf, (std::vector<std::uint32_t>{0, 1, 2}));
-  EXPECT_EQ(use.materials.at(0).alphaMode, AlphaMode::Blend);
-  EXPECT_EQ(use.images.size(), 2U);
-  EXPECT_EQ(use.lights.size(), 1U);
-  EXPECT_TRUE(use.vertexOf.empty());
+  const PrunedScene pruned = pruneScene(scene, settings);
+  EXPECT_EQ(pruned.materialOf, (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(pruned.materials.at(0).alphaMode, AlphaMode::Blend);
+  EXPECT_EQ(pruned.images.size(), 2U);
+  EXPECT_EQ(pruned.lights.size(), 1U);
+  EXPECT_TRUE(pruned.vertexOf.empty());
   EXPECT_EQ(used(scene).materials.size(), 1U);
 }
 

@@ -1,6 +1,6 @@
 // Walks the conditional lines of a kernel's text; grammar: or := and {"||" and}, and := not {"&&" not},
 // not := "!" not | "(" or ")" | HAS(NAME) | anything else.
-#include "programs/asked_features.h"
+#include "programs/referenced_features.h"
 
 #include <cctype>
 #include <map>
@@ -133,7 +133,7 @@ std::uint64_t askedInLine(std::string_view line) {
 
 }  // namespace
 
-std::uint64_t askedFeatures(const std::string& source, std::uint64_t bits) {
+std::uint64_t referencedFeatures(const std::string& source, std::uint64_t bits) {
   std::uint64_t asked = 0;
   std::vector<Level> open;
   const auto active = [&] { return open.empty() || (open.back().active && open.back().branch); };

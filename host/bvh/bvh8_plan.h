@@ -12,7 +12,7 @@
 namespace whittle {
 
 inline constexpr std::uint32_t kLanes = 8;
-inline constexpr std::int32_t kWideTask = 4096;  ///< two-wide nodes of a subtree that is worth a task
+inline constexpr std::int32_t kBvh8Task = 4096;  ///< two-wide nodes of a subtree that is worth a task
 
 /// A subtree of the two-wide tree: child `side` of node `parent`.
 struct SubtreeRef {
@@ -26,19 +26,19 @@ struct SubtreeRef {
 };
 
 /// Which subtrees become the children of a wide node.
-struct WideChildren {
+struct Bvh8Children {
   SubtreeRef child[kLanes];
   std::uint32_t count = 0;
 
   void add(const SubtreeRef& s) { child[count++] = s; }
 };
 
-class WidePlan {
+class Bvh8Plan {
  public:
-  explicit WidePlan(const TriTree& tree);
+  explicit Bvh8Plan(const TriTree& tree);
 
   /// The children of a wide node in place of node n, whose subtree ends before `end`.
-  WideChildren childrenOf(std::int32_t n, std::int32_t end) const;
+  Bvh8Children childrenOf(std::int32_t n, std::int32_t end) const;
   /// It is handed to its parent as one leaf.
   bool becomesLeaf(const SubtreeRef& s) const {
     return s.isLeaf() || plans_[static_cast<std::size_t>(s.child)].endsHere;
@@ -62,8 +62,8 @@ class WidePlan {
   const float* costsOf(std::int32_t n, int side, Costs& leafCosts) const;
   std::int32_t endOf(std::int32_t n, int side, std::int32_t end) const;
   SubtreeRef child(std::int32_t n, int side, std::int32_t end) const;
-  void shareOut(std::int32_t n, std::int32_t end, std::uint32_t most, WideChildren& out) const;
-  void handOver(const SubtreeRef& s, std::uint32_t most, WideChildren& out) const;
+  void shareOut(std::int32_t n, std::int32_t end, std::uint32_t most, Bvh8Children& out) const;
+  void handOver(const SubtreeRef& s, std::uint32_t most, Bvh8Children& out) const;
   float area(const float (&lo)[3], const float (&hi)[3]) const {
     // Halves: the difference of two floats may overflow.
     const float x = (0.5F * hi[0] - 0.5F * lo[0]) * scale_;

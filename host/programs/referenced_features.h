@@ -11,6 +11,6 @@ namespace whittle {
 /// them lead. Two sets of features for which this is the same number give the same program. Other conditions
 /// (`defined`, compiler macros) count as either way. Throws std::runtime_error for a feature that does not
 /// exist.
-std::uint64_t askedFeatures(const std::string& source, std::uint64_t bits);
+std::uint64_t referencedFeatures(const std::string& source, std::uint64_t bits);
 
 }  // namespace whittle

@@ -75,7 +75,7 @@ bool uses(const Stats& stats, const std::string& feature) {
   return false;
 }
 
-TEST(TrimmedPictures, UnusedVertices) {
+TEST(PrunedPictures, UnusedVertices) {
   Scene scene = room();
   scene.materials[0].baseColorTexture = reading(0);
   const std::uint64_t before = bytesOf(expectSameBits(scene), "uv0");
@@ -91,10 +91,10 @@ TEST(TrimmedPictures, UnusedVertices) {
   const Stats stats = expectSameBits(scene);
   EXPECT_EQ(bytesOf(stats, "uv0"), before);
   EXPECT_EQ(bytesOf(stats, "normals"), count * sizeof(glm::vec3));
-  EXPECT_EQ(stats.trimmed.vertices.unused, 2U * count);
+  EXPECT_EQ(stats.pruning.vertices.unused, 2U * count);
 }
 
-TEST(TrimmedPictures, MaterialsAndImagesAlike) {
+TEST(PrunedPictures, MaterialsAndImagesAlike) {
   Scene scene = room();
   scene.materials[0].baseColorTexture = reading(0);
   scene.materials[1].baseColorTexture = reading(1);
@@ -104,12 +104,12 @@ TEST(TrimmedPictures, MaterialsAndImagesAlike) {
   scene.materials.insert(scene.materials.begin(), lambert({1, 0, 1}));  // that no triangle has
   for (Triangle& t : scene.triangles) ++t.material;
   const Stats stats = expectSameBits(scene);
-  EXPECT_EQ(stats.trimmed.materials.kept(), 2U);
+  EXPECT_EQ(stats.pruning.materials.kept(), 2U);
   EXPECT_EQ(bytesOf(stats, "texels"), 8U * 8 * 4);
   EXPECT_EQ(bytesOf(stats, "textures"), 52U) << "one slot";
 }
 
-TEST(TrimmedPictures, TexturesThatAreMultipliedByNothing) {
+TEST(PrunedPictures, TexturesThatAreMultipliedByNothing) {
   Scene scene = room();
   scene.materials[0].emissionTexture = scene.materials[0].specularTexture = reading(0);
   scene.materials[1].transmissionTexture = reading(1);
@@ -121,7 +121,7 @@ TEST(TrimmedPictures, TexturesThatAreMultipliedByNothing) {
   EXPECT_FALSE(uses(stats, "texture"));
 }
 
-TEST(TrimmedPictures, LightsThatReachNothing) {
+TEST(PrunedPictures, LightsThatReachNothing) {
   Scene scene = room();
   Light far = pointLight({0, 50, 0}, 1000), black = pointLight({0, 1, 0}, -3), past = scene.lights[1];
   far.range = 40;
@@ -132,13 +132,13 @@ TEST(TrimmedPictures, LightsThatReachNothing) {
   shadowless.range = 5;
   scene.lights = {black, scene.lights[0], far, shadowless, past, scene.lights[1]};
   const Stats stats = expectSameBits(scene);
-  EXPECT_EQ(stats.trimmed.droppedLights.size(), 3U);
+  EXPECT_EQ(stats.pruning.droppedLights.size(), 3U);
   EXPECT_EQ(bytesOf(stats, "lights"), 3U * 64);
   EXPECT_EQ(stageOf(stats, "shade_light").launches, 2 * stageOf(stats, "shade").launches);
 }
 
 /// A light whose range, or cone, ends just where the nearest surface begins lights nothing, kept or not.
-TEST(TrimmedPictures, LightsThatJustReach) {
+TEST(PrunedPictures, LightsThatJustReach) {
   for (const float range : {0.999F, 0.99999F, 1.0F, 1.00001F, 1.001F, 1.1F}) {
     Scene scene = room();
     scene.lights.push_back(pointLight({5, 0, 0}, 100));
@@ -157,7 +157,7 @@ TEST(TrimmedPictures, LightsThatJustReach) {
   }
 }
 
-TEST(TrimmedPictures, NeedlessAlpha) {
+TEST(PrunedPictures, NeedlessAlpha) {
   Scene scene = room();
   scene.materials[0].baseColorTexture = reading(0);
   scene.materials[0].alphaMode = AlphaMode::Blend;
@@ -169,13 +169,13 @@ TEST(TrimmedPictures, NeedlessAlpha) {
   scene.materials[2].roughness = 0.1F;
   for (std::size_t i = 0; i < 2; ++i) scene.images[i] = noise(255);
   const Stats stats = expectSameBits(scene);
-  EXPECT_EQ(stats.trimmed.needlessBlends, 2U);
-  EXPECT_EQ(stats.trimmed.needlessMasks, 1U);
+  EXPECT_EQ(stats.pruning.needlessBlends, 2U);
+  EXPECT_EQ(stats.pruning.needlessMasks, 1U);
   EXPECT_FALSE(uses(stats, "mask"));
   EXPECT_FALSE(uses(stats, "blend"));
 }
 
-TEST(TrimmedPictures, MasksNearTheirCutoff) {
+TEST(PrunedPictures, MasksNearTheirCutoff) {
   Scene scene = room();
   for (std::size_t i = 0; i < scene.positions.size(); ++i)
     scene.colors.emplace_back(1, 0.9F, 0.8F, 0.501F + 0.1F * static_cast<float>(i % 2));
@@ -184,7 +184,7 @@ TEST(TrimmedPictures, MasksNearTheirCutoff) {
   scene.materials[1].baseColorTexture = reading(0);
   scene.images[0] = noise(254);
   const Stats stats = expectSameBits(scene);
-  EXPECT_EQ(stats.trimmed.needlessMasks, 1U) << "the third: the others fall short";
+  EXPECT_EQ(stats.pruning.needlessMasks, 1U) << "the third: the others fall short";
 }
 
 /// The room with colours whose alpha decides what is there, so that searches read vertices too.
@@ -215,7 +215,7 @@ Scene withVertices(Scene scene, std::size_t count) {
   return scene;
 }
 
-TEST(TrimmedPictures, VertexIndicesAreAsWideAsTheyMustBe) {
+TEST(PrunedPictures, VertexIndicesAreAsWideAsTheyMustBe) {
   const auto bytesOfCorners = [](const Scene& scene, std::uint64_t each) {
     const std::uint64_t corners = 3 * (scene.triangles.size() + 1);  // and the one that nothing hits
     return (corners * each + 3) / 4 * 4;
@@ -228,7 +228,7 @@ TEST(TrimmedPictures, VertexIndicesAreAsWideAsTheyMustBe) {
     for (const Lanes lanes : {Lanes::Auto, Lanes::One}) {
       settings.lanes = lanes;
       const RenderResult many = renderOnDevice(scene, settings);
-      EXPECT_EQ(many.stats.trimmed.vertices.kept(), count);
+      EXPECT_EQ(many.stats.pruning.vertices.kept(), count);
       EXPECT_EQ(bytesOf(many.stats, "corners"), bytesOfCorners(scene, count > 65536 ? 4 : 2)) << count;
       EXPECT_EQ(differingPixels(many.radiance, few.radiance), 0U) << count;
     }
@@ -236,7 +236,7 @@ TEST(TrimmedPictures, VertexIndicesAreAsWideAsTheyMustBe) {
   }
 }
 
-TEST(TrimmedPictures, StatisticsSayWhatStaysOnTheHost) {
+TEST(PrunedPictures, StatisticsSayWhatStaysOnTheHost) {
   Scene scene = room();
   scene.lights.push_back(pointLight({0, 1, 0}, 0));
   scene.lights.back().name = "off";

@@ -16,7 +16,7 @@ struct DroppedLight {
 };
 
 /// Counts of the scene's things. What is neither left out nor alike goes to the device.
-struct Trimmed {
+struct PruningReport {
   struct Things {
     std::uint64_t all = 0;     ///< in the scene
     std::uint64_t unused = 0;  ///< nothing that is rendered reads them
@@ -31,6 +31,6 @@ struct Trimmed {
 };
 
 /// The same in the statistics file and in `whittle info --json`.
-nlohmann::ordered_json trimmedToJson(const Trimmed& trimmed);
+nlohmann::ordered_json pruningToJson(const PruningReport& pruning);
 
 }  // namespace whittle

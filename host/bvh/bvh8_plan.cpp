@@ -1,5 +1,5 @@
-// See wide_plan.h. Bottom-up in parallel: a subtree is a run of nodes, children after their parents.
-#include "bvh/wide_plan.h"
+// See bvh8_plan.h. Bottom-up in parallel: a subtree is a run of nodes, children after their parents.
+#include "bvh/bvh8_plan.h"
 
 #include <tbb/parallel_invoke.h>
 
@@ -59,13 +59,13 @@ void combine(const float* left, const float* right, float (&cost)[kLanes],
 
 }  // namespace
 
-WidePlan::WidePlan(const TriTree& tree)
+Bvh8Plan::Bvh8Plan(const TriTree& tree)
     : nodes_(tree.nodes.data()), plans_(tree.nodes.size()), scale_(edgeScale(tree.nodes[0])) {
   planSubtree(0, static_cast<std::int32_t>(tree.nodes.size()));
 }
 
-void WidePlan::planSubtree(std::int32_t n, std::int32_t end) {
-  if (end - n < kWideTask) {
+void Bvh8Plan::planSubtree(std::int32_t n, std::int32_t end) {
+  if (end - n < kBvh8Task) {
     for (std::int32_t i = end; i-- > n;) planNode(i);
     return;
   }
@@ -78,11 +78,11 @@ void WidePlan::planSubtree(std::int32_t n, std::int32_t end) {
 }
 
 /// Depth-first: one side's nodes end where the other's begin.
-std::int32_t WidePlan::endOf(std::int32_t n, int side, std::int32_t end) const {
+std::int32_t Bvh8Plan::endOf(std::int32_t n, int side, std::int32_t end) const {
   return side == 0 && nodes_[n].child[1] >= 0 ? nodes_[n].child[1] : end;
 }
 
-SubtreeRef WidePlan::child(std::int32_t n, int side, std::int32_t end) const {
+SubtreeRef Bvh8Plan::child(std::int32_t n, int side, std::int32_t end) const {
   const TreeNode& node = nodes_[n];
   SubtreeRef s{n, side, node.child[side], end, 0, 0};
   if (s.isLeaf()) {
@@ -96,7 +96,7 @@ SubtreeRef WidePlan::child(std::int32_t n, int side, std::int32_t end) const {
   return s;
 }
 
-const float* WidePlan::costsOf(std::int32_t n, int side, Costs& leafCosts) const {
+const float* Bvh8Plan::costsOf(std::int32_t n, int side, Costs& leafCosts) const {
   const TreeNode& node = nodes_[n];
   const std::int32_t c = node.child[side];
   if (c >= 0) return plans_[static_cast<std::size_t>(c)].cost;
@@ -106,7 +106,7 @@ const float* WidePlan::costsOf(std::int32_t n, int side, Costs& leafCosts) const
   return leafCosts;
 }
 
-void WidePlan::planNode(std::int32_t n) {
+void Bvh8Plan::planNode(std::int32_t n) {
   const TreeNode& node = nodes_[n];
   Plan& plan = plans_[static_cast<std::size_t>(n)];
   plan.first = std::numeric_limits<std::uint32_t>::max();
@@ -135,15 +135,15 @@ void WidePlan::planNode(std::int32_t n) {
   for (float& cost : plan.cost) cost = std::min(cost, asOne);
 }
 
-WideChildren WidePlan::childrenOf(std::int32_t n, std::int32_t end) const {
-  WideChildren children;
+Bvh8Children Bvh8Plan::childrenOf(std::int32_t n, std::int32_t end) const {
+  Bvh8Children children;
   shareOut(n, end, kLanes, children);
   return children;
 }
 
 /// Adds the children of a node that may have at most `most`, two or more; of equal ways the one of the
 /// fewest.
-void WidePlan::shareOut(std::int32_t n, std::int32_t end, std::uint32_t most, WideChildren& out) const {
+void Bvh8Plan::shareOut(std::int32_t n, std::int32_t end, std::uint32_t most, Bvh8Children& out) const {
   Costs leaves[2], cost;
   const float* left = costsOf(n, 0, leaves[0]);
   const float* right = costsOf(n, 1, leaves[1]);
@@ -156,7 +156,7 @@ void WidePlan::shareOut(std::int32_t n, std::int32_t end, std::uint32_t most, Wi
 }
 
 /// Adds `s` as at most `most` children.
-void WidePlan::handOver(const SubtreeRef& s, std::uint32_t most, WideChildren& out) const {
+void Bvh8Plan::handOver(const SubtreeRef& s, std::uint32_t most, Bvh8Children& out) const {
   const float* cost = s.isLeaf() ? nullptr : plans_[static_cast<std::size_t>(s.child)].cost;
   if (s.isLeaf() || cost[most - 1] == cost[0]) {
     out.add(s);

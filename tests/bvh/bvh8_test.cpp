@@ -1,6 +1,6 @@
 // The eight-wide tree holds what the two-wide tree holds: every triangle once, in boxes that contain it,
 // within bounds.
-#include "bvh/wide_tree.h"
+#include "bvh/bvh8.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -18,17 +18,17 @@ struct Walk {
   int depth = 0;
 };
 
-bool contains(const WideNode& n, int k, float x, float y, float z) {
+bool contains(const Bvh8Node& n, int k, float x, float y, float z) {
   return n.lo[0][k] <= x && x <= n.hi[0][k] && n.lo[1][k] <= y && y <= n.hi[1][k] && n.lo[2][k] <= z &&
          z <= n.hi[2][k];
 }
 
 /// Visits everything below `index`; `boxes`: every box on the way must contain each corner.
-void walk(const WideTree& wide, const TriTree& tree, const test::TriangleMesh& mesh, std::int32_t index,
+void walk(const Bvh8& wide, const TriTree& tree, const test::TriangleMesh& mesh, std::int32_t index,
           std::vector<std::pair<std::int32_t, int>>& boxes, Walk& w) {
   ++w.nodes;
   w.depth = std::max(w.depth, static_cast<int>(boxes.size()) + 1);
-  const WideNode& node = wide.nodes.at(static_cast<std::size_t>(index));
+  const Bvh8Node& node = wide.nodes.at(static_cast<std::size_t>(index));
   for (int k = 0; k < 8; ++k) {
     if (!(node.lo[0][k] <= node.hi[0][k])) continue;
     boxes.emplace_back(index, k);
@@ -59,7 +59,7 @@ void walk(const WideTree& wide, const TriTree& tree, const test::TriangleMesh& m
 void expectWhole(const test::TriangleMesh& mesh, const std::string& name, const BuildOptions& options = {}) {
   SCOPED_TRACE(name);
   const TriTree tree = buildTriTree(mesh.positions, mesh.triangles, options);
-  const WideTree wide = buildWideTree(tree, mesh.positions, mesh.triangles);
+  const Bvh8 wide = buildBvh8(tree, mesh.positions, mesh.triangles);
   Walk w;
   w.seen.resize(tree.order.size());
   std::vector<std::pair<std::int32_t, int>> boxes;
@@ -71,12 +71,12 @@ void expectWhole(const test::TriangleMesh& mesh, const std::string& name, const 
   EXPECT_GE(wide.corners.size(), 9 * tree.order.size() + 8);
 }
 
-TEST(WideTree, HoldsEveryTriangleOnce) {
+TEST(Bvh8, HoldsEveryTriangleOnce) {
   for (const std::size_t count : {0U, 1U, 2U, 7U, 8U, 9U, 63U, 1000U, 20000U, 50000U})
     expectWhole(test::randomSoup(count, 0.1F, 41 + count), std::to_string(count));
 }
 
-TEST(WideTree, LongLeavesAreSplit) {
+TEST(Bvh8, LongLeavesAreSplit) {
   test::TriangleMesh alike;
   for (int i = 0; i < 1000; ++i) alike.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   BuildOptions sixteen;
@@ -86,7 +86,7 @@ TEST(WideTree, LongLeavesAreSplit) {
 }
 
 /// Areas of the largest overflow a float, those of the smallest vanish.
-TEST(WideTree, ExtremeScales) {
+TEST(Bvh8, ExtremeScales) {
   for (const float scale : {1e18F, 3e38F, 1e-18F, 1e-30F, 1e-37F, 1e-44F}) {
     test::TriangleMesh mesh = test::randomSoup(3000, 0.1F, 8);
     for (glm::vec3& p : mesh.positions) p = glm::clamp(p, -1.0F, 1.0F) * scale;
@@ -94,17 +94,17 @@ TEST(WideTree, ExtremeScales) {
   }
 }
 
-TEST(WideTree, SameForAnyNumberOfThreadsAndEveryRun) {
+TEST(Bvh8, SameForAnyNumberOfThreadsAndEveryRun) {
   // Large enough for many tasks.
   const auto mesh = test::randomSoup(100000, 0.01F, 11);
   const TriTree tree = buildTriTree(mesh.positions, mesh.triangles);
   const auto bytes = [](const auto& v) {
     return std::string_view(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(v[0]));
   };
-  const WideTree first = buildWideTree(tree, mesh.positions, mesh.triangles);
+  const Bvh8 first = buildBvh8(tree, mesh.positions, mesh.triangles);
   for (const std::size_t threads : {1U, 2U, 3U}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    const WideTree again = buildWideTree(tree, mesh.positions, mesh.triangles);
+    const Bvh8 again = buildBvh8(tree, mesh.positions, mesh.triangles);
     EXPECT_TRUE(bytes(first.nodes) == bytes(again.nodes)) << threads;
     EXPECT_TRUE(bytes(first.corners) == bytes(again.corners)) << threads;
   }
@@ -112,10 +112,10 @@ TEST(WideTree, SameForAnyNumberOfThreadsAndEveryRun) {
 
 /// Half-empty nodes are what the collapse is there to avoid: opening the child of the largest box until there
 /// are eight leaves 4.1 children in a node of a height field.
-TEST(WideTree, MostLanesAreTaken) {
+TEST(Bvh8, MostLanesAreTaken) {
   const auto mesh = test::randomSoup(20000, 0.02F, 5);
   const TriTree tree = buildTriTree(mesh.positions, mesh.triangles);
-  const WideTree wide = buildWideTree(tree, mesh.positions, mesh.triangles);
+  const Bvh8 wide = buildBvh8(tree, mesh.positions, mesh.triangles);
   const double children = static_cast<double>(wide.nodes.size() - 1 + wide.leaves);
   EXPECT_GE(children / static_cast<double>(wide.nodes.size()), 5.0);
 }

@@ -1,7 +1,7 @@
 // Searches for one ray at a time through the eight-wide tree: one ray against eight boxes, or eight triangles, in the
 // lanes of a float8. For rays that share no way, where a packet would drag the others along. The arithmetic of a lane is
 // that of the other searches, so the answers are the same bits.
-#include "lib/wide_tree.cl"
+#include "lib/bvh8.cl"
 
 #if HAS(TREE) && HAS(PACKETS)
 
@@ -24,10 +24,10 @@ typedef struct {
   int kx, ky, kz;
   float sx, sy, sz;
   uint lane;  // of the table
-} WideRay;
+} Bvh8Ray;
 
-INLINE WideRay wideRay(const RayTable* rays, uint lane) {
-  WideRay r;
+INLINE Bvh8Ray bvh8Ray(const RayTable* rays, uint lane) {
+  Bvh8Ray r;
   r.lane = lane;
   r.regular = 1;
   for (int a = 0; a < 3; ++a) {
@@ -49,7 +49,7 @@ INLINE WideRay wideRay(const RayTable* rays, uint lane) {
 }
 
 /// The eight children of a node: mask of those that the ray enters before tMax, and where.
-INLINE int8 wideEntries(const WideRay* r, __global const float* node, float tMax, float8* entry) {
+INLINE int8 wideEntries(const Bvh8Ray* r, __global const float* node, float tMax, float8* entry) {
   float8 enter = (float8)(0.0f), leave = (float8)(tMax);
   if (r->regular) {
     const int x = r->nearPlane[0], y = r->nearPlane[1], z = r->nearPlane[2];
@@ -75,7 +75,7 @@ INLINE int8 wideEntries(const WideRay* r, __global const float* node, float tMax
 }
 
 /// clampToBox for the triangles of a leaf.
-float8 clampToBoxes(const WideRay* r, const Leaf* leaf, float8 t) {
+float8 clampToBoxes(const Bvh8Ray* r, const Leaf* leaf, float8 t) {
   float8 far[3];
   for (int a = 0; a < 3; ++a) {
     float8 lo, hi;
@@ -91,7 +91,7 @@ float8 clampToBoxes(const WideRay* r, const Leaf* leaf, float8 t) {
 
 /// The triangles of a leaf: bits of those met at 0 < t <= tMax; t of all lanes, and the areas whose ratios v/det and w/det
 /// are the barycentrics b1 and b2.
-INLINE uint intersectLeaf(const WideRay* r, const Leaf* leaf, float tMax, float8* t, float8* areaV, float8* areaW,
+INLINE uint intersectLeaf(const Bvh8Ray* r, const Leaf* leaf, float tMax, float8* t, float8* areaV, float8* areaW,
                           float8* area) {
   const float ox = r->o[r->kx], oy = r->o[r->ky], oz = r->o[r->kz];
   const float8 az = leafPlane(leaf, 0, r->kz) - oz;
@@ -120,7 +120,7 @@ INLINE uint intersectLeaf(const WideRay* r, const Leaf* leaf, float tMax, float8
   return lanes & laneBits((*t > 0.0f) & (*t <= tMax));
 }
 
-INLINE void testNearestLeaf(const SceneView* scene, const WideRay* r, int child, Hit* best) {
+INLINE void testNearestLeaf(const SceneView* scene, const Bvh8Ray* r, int child, Hit* best) {
   const Leaf leaf = leafOf(scene, child);
   float8 t8, v8, w8, det8;
   uint bits = intersectLeaf(r, &leaf, best->t, &t8, &v8, &w8, &det8);
@@ -145,7 +145,7 @@ INLINE void testNearestLeaf(const SceneView* scene, const WideRay* r, int child,
 }
 
 /// 1 once the light is blocked. stops: [3], see testOcclusion.
-INLINE int testOcclusionLeaf(const SceneView* scene, const RayTable* rays, const WideRay* r, int child, float tMax,
+INLINE int testOcclusionLeaf(const SceneView* scene, const RayTable* rays, const Bvh8Ray* r, int child, float tMax,
                              uint* stops) {
   const Leaf leaf = leafOf(scene, child);
   float8 t8, v8, w8, det8;
@@ -164,13 +164,13 @@ INLINE int testOcclusionLeaf(const SceneView* scene, const RayTable* rays, const
 
 /// A ray on its way to its nearest hit: children of `group` still to visit, the groups above it on the stack.
 typedef struct {
-  WideRay r;
+  Bvh8Ray r;
   Hit best;
   uint limit;  // keyLimit(best.t)
   uint8 keys;
   int group, depth;
-  uint waiting[8 * WIDE_DEPTH];
-  int groups[WIDE_DEPTH];
+  uint waiting[8 * BVH8_DEPTH];
+  int groups[BVH8_DEPTH];
 } Walk;
 
 /// One step: a child taken from the stack, a node opened or a leaf tested. 0 at the end of the way.
@@ -184,7 +184,7 @@ INLINE int step(const SceneView* scene, Walk* w) {
     return 1;
   }
   const uint8 keys = select(w->keys, (uint8)(NO_CHILD), as_uint8(w->keys == least));
-  const int child = as_int(scene->wideNodes[(size_t)w->group * WIDE_NODE_FLOATS + 48 + (least & 7u)]);
+  const int child = as_int(scene->bvh8Nodes[(size_t)w->group * BVH8_NODE_FLOATS + 48 + (least & 7u)]);
   if (child < 0) {
     testNearestLeaf(scene, &w->r, child, &w->best);
     w->limit = keyLimit(w->best.t);
@@ -192,7 +192,7 @@ INLINE int step(const SceneView* scene, Walk* w) {
     return 1;
   }
   float8 entry;
-  const int8 entered = wideEntries(&w->r, scene->wideNodes + (size_t)child * WIDE_NODE_FLOATS, w->best.t, &entry);
+  const int8 entered = wideEntries(&w->r, scene->bvh8Nodes + (size_t)child * BVH8_NODE_FLOATS, w->best.t, &entry);
   vstore8(keys, w->depth, w->waiting);
   w->groups[w->depth] = w->group;
   w->depth += anyOf8(keys != NO_CHILD);
@@ -211,11 +211,11 @@ INLINE uint nextAwake(const RayTable* rays, uint* next) {
 INLINE int startWalk(const SceneView* scene, const RayTable* rays, uint* next, Walk* w) {
   const uint lane = nextAwake(rays, next);
   if (lane == PACKET_RAYS) return 0;
-  w->r = wideRay(rays, lane);
+  w->r = bvh8Ray(rays, lane);
   w->best.t = rays->t[lane], w->best.triangle = NO_HIT, w->best.b1 = w->best.b2 = 0.0f;
   w->limit = keyLimit(w->best.t);
   float8 entry;
-  w->keys = childKeys(wideEntries(&w->r, scene->wideNodes, w->best.t, &entry), entry);
+  w->keys = childKeys(wideEntries(&w->r, scene->bvh8Nodes, w->best.t, &entry), entry);
   w->group = 0, w->depth = 0;
   return 1;
 }
@@ -257,13 +257,13 @@ void nearestApart(const SceneView* scene, RayTable* rays) {
 /// A shadow ray on its way: one bit for each child of `group` still to visit, in the order of the node, which has the
 /// largest first: a ray that meets anything is at its end.
 typedef struct {
-  WideRay r;
+  Bvh8Ray r;
   float tMax;
   uint bits;
   int group, depth;
   uint stops[3];
-  uchar waiting[WIDE_DEPTH];
-  int groups[WIDE_DEPTH];
+  uchar waiting[BVH8_DEPTH];
+  int groups[BVH8_DEPTH];
 } ShadowWalk;
 
 #define SHADOW_ON 0
@@ -277,14 +277,14 @@ INLINE int stepShadow(const SceneView* scene, const RayTable* rays, ShadowWalk* 
     w->bits = w->waiting[w->depth];
     w->group = w->groups[w->depth];
   }
-  const int child = as_int(scene->wideNodes[(size_t)w->group * WIDE_NODE_FLOATS + 48 + lowestBit(w->bits)]);
+  const int child = as_int(scene->bvh8Nodes[(size_t)w->group * BVH8_NODE_FLOATS + 48 + lowestBit(w->bits)]);
   w->bits &= w->bits - 1;
   if (child < 0) return testOcclusionLeaf(scene, rays, &w->r, child, w->tMax, w->stops) ? SHADOW_BLOCKED : SHADOW_ON;
   w->waiting[w->depth] = (uchar)w->bits;
   w->groups[w->depth] = w->group;
   w->depth += w->bits != 0;
   float8 entry;
-  w->bits = laneBits(wideEntries(&w->r, scene->wideNodes + (size_t)child * WIDE_NODE_FLOATS, w->tMax, &entry));
+  w->bits = laneBits(wideEntries(&w->r, scene->bvh8Nodes + (size_t)child * BVH8_NODE_FLOATS, w->tMax, &entry));
   w->group = child;
   return SHADOW_ON;
 }
@@ -292,11 +292,11 @@ INLINE int stepShadow(const SceneView* scene, const RayTable* rays, ShadowWalk* 
 INLINE int startShadow(const SceneView* scene, const RayTable* rays, uint* next, ShadowWalk* w) {
   const uint lane = nextAwake(rays, next);
   if (lane == PACKET_RAYS) return 0;
-  w->r = wideRay(rays, lane);
+  w->r = bvh8Ray(rays, lane);
   w->tMax = rays->t[lane];
   w->stops[0] = w->stops[1] = w->stops[2] = 0;
   float8 entry;
-  w->bits = laneBits(wideEntries(&w->r, scene->wideNodes, w->tMax, &entry));
+  w->bits = laneBits(wideEntries(&w->r, scene->bvh8Nodes, w->tMax, &entry));
   w->group = 0, w->depth = 0;
   return 1;
 }

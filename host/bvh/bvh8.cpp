@@ -1,6 +1,6 @@
-// See wide_tree.h. Large subtrees are tasks of their own, each with its own array of nodes; these are put
+// See bvh8.h. Large subtrees are tasks of their own, each with its own array of nodes; these are put
 // behind one another, depth-first, once all sizes are known.
-#include "bvh/wide_tree.h"
+#include "bvh/bvh8.h"
 
 #include <tbb/parallel_for.h>
 
@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "bvh/wide_plan.h"
+#include "bvh/bvh8_plan.h"
 
 namespace whittle {
 namespace {
@@ -18,10 +18,10 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// A part of the tree that one task made. Node indices in it count from its own first node.
 struct Part {
-  std::vector<WideNode> nodes;          ///< never empty
+  std::vector<Bvh8Node> nodes;          ///< never empty
   std::unique_ptr<Part> parts[kLanes];  ///< where set, that child of nodes[0]
   std::size_t leaves = 0;
-  int depth = 0;  ///< as WideTree's, counted from the root of the tree
+  int depth = 0;  ///< as Bvh8's, counted from the root of the tree
 };
 
 /// A node to be made.
@@ -52,7 +52,7 @@ class Collapse {
   std::unique_ptr<Part> buildPart(const Pending& top) {
     auto part = std::make_unique<Part>();
     part->nodes.resize(1);
-    if (top.end - top.from < kWideTask) {
+    if (top.end - top.from < kBvh8Task) {
       buildSerial(top, *part);
       return part;
     }
@@ -84,7 +84,7 @@ class Collapse {
 
   /// Writes node `to` of `part` but for the indices of the children that are nodes.
   InnerChildren fill(const Pending& p, std::size_t to, Part& part) {
-    WideChildren children = plan_.childrenOf(p.from, p.end);
+    Bvh8Children children = plan_.childrenOf(p.from, p.end);
     splitLongLeaves(children);
     sortByArea(children);
     part.depth = std::max(part.depth, p.depth);
@@ -110,7 +110,7 @@ class Collapse {
 
   /// A leaf of more than eight triangles becomes two children of the same box where there is room, else a
   /// node of its own.
-  static void splitLongLeaves(WideChildren& children) {
+  static void splitLongLeaves(Bvh8Children& children) {
     for (std::uint32_t i = 0; i < children.count; ++i) {
       SubtreeRef& s = children.child[i];
       if (!s.isLeaf() || s.count <= kLanes || children.count == kLanes) continue;
@@ -126,7 +126,7 @@ class Collapse {
   }
 
   /// A shadow ray visits children in this order: what it is most likely to meet comes first.
-  void sortByArea(WideChildren& children) const {
+  void sortByArea(Bvh8Children& children) const {
     float area[kLanes];
     for (std::uint32_t i = 0; i < children.count; ++i) {
       const SubtreeRef s = children.child[i];
@@ -142,7 +142,7 @@ class Collapse {
   }
 
   /// nullptr: nothing there.
-  void setBox(WideNode& node, std::uint32_t k, const SubtreeRef* s) const {
+  void setBox(Bvh8Node& node, std::uint32_t k, const SubtreeRef* s) const {
     const TreeNode* parent = s ? &tree_.nodes[static_cast<std::size_t>(s->parent)] : nullptr;
     for (int a = 0; a < 3; ++a) {
       node.lo[a][k] = parent ? parent->lo[s->side][a] : kInfinity;
@@ -151,7 +151,7 @@ class Collapse {
   }
 
   std::int32_t addNodeOfTwoLeaves(const SubtreeRef& s, int depth, Part& part) {
-    WideNode node{};
+    Bvh8Node node{};
     for (std::uint32_t k = 0; k < kLanes; ++k) setBox(node, k, k < 2 ? &s : nullptr);
     node.child[0] = addLeaf(s.first, kLanes, part);
     node.child[1] = addLeaf(s.first + kLanes, s.count - kLanes, part);
@@ -176,7 +176,7 @@ class Collapse {
   const TriTree& tree_;
   std::span<const glm::vec3> positions_;
   std::span<const glm::uvec3> triangles_;
-  WidePlan plan_;
+  Bvh8Plan plan_;
   UninitializedVector<float> corners_;
 };
 
@@ -199,13 +199,13 @@ std::int32_t place(Part& part, std::int32_t base, std::vector<Placed>& all) {
   return next;
 }
 
-UninitializedVector<WideNode> join(Part& top) {
+UninitializedVector<Bvh8Node> join(Part& top) {
   std::vector<Placed> all;
-  UninitializedVector<WideNode> nodes;
+  UninitializedVector<Bvh8Node> nodes;
   nodes.resize(static_cast<std::size_t>(place(top, 0, all)));
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     auto to = nodes.begin() + all[i].base;
-    for (const WideNode& node : all[i].part->nodes) {
+    for (const Bvh8Node& node : all[i].part->nodes) {
       *to = node;
       // A node comes after its parent, so a child that is a node is never 0, and an absent one always.
       for (std::int32_t& child : to->child) child += child > 0 ? all[i].base : 0;
@@ -217,11 +217,11 @@ UninitializedVector<WideNode> join(Part& top) {
 
 }  // namespace
 
-WideTree buildWideTree(const TriTree& tree, std::span<const glm::vec3> positions,
-                       std::span<const glm::uvec3> triangles) {
+Bvh8 buildBvh8(const TriTree& tree, std::span<const glm::vec3> positions,
+               std::span<const glm::uvec3> triangles) {
   Collapse collapse(tree, positions, triangles);
   const std::unique_ptr<Part> top = collapse.run();
-  WideTree wide;
+  Bvh8 wide;
   wide.corners = collapse.takeCorners();
   wide.nodes = join(*top);
   wide.leaves = top->leaves;

@@ -89,7 +89,6 @@ TEST(HelpAlone, TellsItsVersion) {
 }
 
 TEST(Text, NumbersAndWords) {
-  using namespace whittle::cli;
   EXPECT_EQ(formatInteger(0), "0");
   EXPECT_EQ(formatInteger(999), "999");
   EXPECT_EQ(formatInteger(1000), "1,000");

@@ -37,8 +37,8 @@ void copyPlane(std::vector<float>& queue, std::uint32_t capacity, std::uint32_t 
 const std::vector<QueryKernel>& queryKernels() {
   constexpr std::uint64_t common = bit(Feature::TREE) | bit(Feature::SHADOWS) | bit(Feature::LIGHTS);
   static const std::vector<QueryKernel> kernels{
-      {"packet16", common | bit(Feature::PACKETS), PACKET_RAYS},
-      {"single2", common, 1},
+      {"packet16", common | bit(Feature::PACKETS)},
+      {"single2", common},
   };
   return kernels;
 }
@@ -49,8 +49,10 @@ QueryRunner::QueryRunner(Compute& compute, const Scene& scene, const TriTree& tr
   const std::string options = fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x}", kernel.features);
   const std::vector programs{
       compute_.build(assembleKernelSource({"intersect.cl", "occlude.cl"}, kernelFolder), options)};
-  stages_.emplace(compute_, programs, defaultWorkGroup(SceneFeatures::ofBits(kernel.features)));
-  scene_ = uploadScene(compute_, bareScene(scene), tree_, SceneFeatures::ofBits(kernel.features));
+  const SceneFeatures features = SceneFeatures::ofBits(kernel.features);
+  stages_.emplace(compute_, programs, defaultWorkGroup(features),
+                  LaunchWidths{features.has(Feature::PACKETS)});
+  scene_ = uploadScene(compute_, bareScene(scene), tree_, features);
 }
 
 std::size_t QueryRunner::sceneBytes() const {
@@ -92,9 +94,8 @@ void QueryRunner::load(const RaySet& rays) {
 double QueryRunner::nearest() {
   clTry("waiting for earlier kernels", [&] { compute_.queue().finish(); });
   const auto start = std::chrono::steady_clock::now();
-  const auto each = static_cast<std::uint32_t>(kernel_.raysEach);
-  stages_->run("intersect", (count_ + each - 1) / each, count_, scene_, std::uint32_t{0}, count_, capacity_,
-               rays_, hits_, std::uint32_t{HIT_PLANES});
+  stages_->run(stages::Intersect{
+      .scene = scene_, .count = count_, .capacity = capacity_, .rays = rays_, .hits = hits_});
   clTry("waiting for the nearest hits", [&] { compute_.queue().finish(); });
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -103,9 +104,12 @@ double QueryRunner::any() {
   compute_.fillZero(radiance_);
   clTry("waiting for earlier kernels", [&] { compute_.queue().finish(); });
   const auto start = std::chrono::steady_clock::now();
-  const auto each = static_cast<std::uint32_t>(kernel_.raysEach);
-  stages_->run("occlude", (count_ + each - 1) / each, count_, scene_, count_, capacity_, queue_, shadows_,
-               radiance_);
+  stages_->run(stages::Occlude{.scene = scene_,
+                               .count = count_,
+                               .capacity = capacity_,
+                               .shadowQueue = queue_,
+                               .shadows = shadows_,
+                               .entryRadiance = radiance_});
   clTry("waiting for the shadow rays", [&] { compute_.queue().finish(); });
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -15,7 +15,6 @@ namespace whittle {
 struct QueryKernel {
   const char* name;
   std::uint64_t features;  ///< bits of kernels/shared/features.h
-  int raysEach;            ///< rays of one work item
 };
 
 /// Every kernel there is; first the one that the renderer uses on a CPU, for rays of any kind.

@@ -13,6 +13,7 @@
 #include "cli/outputs.h"
 #include "render/renderer.h"
 #include "wavefront/camera_to_device.h"
+#include "wavefront/stages.h"
 
 namespace whittle::cli {
 namespace {
@@ -53,7 +54,8 @@ void runInfo(const InfoOptions& o) {
   const PrunedScene pruned = plan ? std::move(plan->pruned) : pruneScene(scene, o.settings);
   const SceneFeatures features =
       plan ? plan->features : SceneFeatures::analyse(scene, pruned, o.settings, {});
-  const auto stages = plan ? plan->stages : plannedStages(features, pruned.lights.size(), o.settings.bounces);
+  const auto stages =
+      plan ? plan->stages : plannedStages({features, pruned.lights.size(), o.settings.bounces});
   const InfoReport report{scene, notices, features, pruned.pruning, stages, plan, problem};
   if (o.json)
     fmt::print("{}\n",

@@ -1,8 +1,10 @@
 // `whittle info --json`: the same facts as the text, none abridged.
+#include <algorithm>
 #include <cmath>
 
 #include "cli/info_report.h"
 #include "report/json_float.h"
+#include "wavefront/stages.h"
 
 namespace whittle::cli {
 namespace {
@@ -67,6 +69,15 @@ Json buffersJson(const RenderPlan& plan) {
   return buffers;
 }
 
+/// The facts of the stages that will run, for scripts that draw or count them.
+Json pipelineJson(const std::vector<std::string>& names) {
+  Json pipeline = Json::array();
+  for (const Stage& stage : allStages())
+    if (std::find(names.begin(), names.end(), stage.facts.name) != names.end())
+      pipeline.push_back(stageFactsToJson(stage.facts));
+  return pipeline;
+}
+
 }  // namespace
 
 Json infoJson(const InfoReport& r) {
@@ -83,7 +94,8 @@ Json infoJson(const InfoReport& r) {
       {"cameras", camerasJson(scene)},
       {"background", {{"radiance", toJson(b.radiance)}, {"mapWidth", b.width}, {"mapHeight", b.height}}},
       {"features", featuresJson(r.features, r.pruning)},
-      {"stages", r.stages}};
+      {"stages", r.stages},
+      {"pipeline", pipelineJson(r.stages)}};
   json["device"] = r.plan ? Json(r.plan->device.name) : Json(nullptr);
   json["deviceProblem"] = r.plan ? Json(nullptr) : Json(r.planProblem);
   json["buffers"] = r.plan ? buffersJson(*r.plan) : Json(nullptr);

@@ -9,59 +9,44 @@
 #include <chrono>
 #include <cstdlib>
 #include <future>
-#include <map>
+#include <string_view>
 
 #include "cl/kernel_source.h"
-#include "kernels/shared/layout.h"
 #include "programs/referenced_features.h"
+#include "wavefront/kernel_arguments.h"
+#include "wavefront/stages.h"
 
 namespace whittle {
 namespace {
 
-struct Part {
+/// The programs; the one that takes longest to compile first. Which stages they hold: wavefront/stages.h.
+struct Program {
   const char* name;
-  std::vector<std::string> files;
-  std::vector<std::string> kernels;
   bool mayRelax = false;  ///< see CompileTarget::relaxedArithmetic
 };
+constexpr std::array kPrograms{Program{"searches"}, Program{"shading", true}, Program{"queues"}};
 
-/// Every stage in one of them; the one that takes longest to compile first.
-const std::vector<Part>& parts() {
-  static const std::vector<Part> all{
-      {"searches", {"intersect.cl", "occlude.cl"}, {"intersect", "occlude"}},
-      {"shading", {"shade.cl"}, {"shade", "shade_light"}, true},
-      {"queues",
-       {"raygen.cl", "compact.cl", "accumulate.cl", "film.cl"},
-       {"raygen", "compact_count", "scan_chunks", "compact_shadow", "compact_impulse", "find_long_runs",
-        "accumulate", "film"}},
-  };
-  return all;
+/// Kernel files of a program, whatever of them will be launched.
+std::vector<std::string> filesOf(std::string_view program) {
+  std::vector<std::string> files;
+  for (const Stage& stage : allStages())
+    if (stage.facts.program == program &&
+        std::find(files.begin(), files.end(), stage.facts.file) == files.end())
+      files.emplace_back(stage.facts.file);
+  return files;
 }
 
-/// Bytes of a kernel argument passed by value, by its type; 0: unknown.
-std::size_t valueBytes(const std::string& type) {
-  static const std::map<std::string, std::size_t> sizes{{"uint", sizeof(cl_uint)},
-                                                        {"Batch", sizeof(device::Batch)},
-                                                        {"RenderConstants", sizeof(device::RenderConstants)},
-                                                        {"DeviceCamera", sizeof(device::DeviceCamera)}};
-  const auto found = sizes.find(type);
-  return found == sizes.end() ? 0 : found->second;
-}
-
-/// Null buffers, zero counts, structs of zeros: a launch with these does nothing. False: some argument is of
-/// another kind.
-bool setZeroArguments(cl::Kernel& kernel) {
-  static const std::array<char, 256> zeros{};
-  const auto count = kernel.getInfo<CL_KERNEL_NUM_ARGS>();
-  for (cl_uint i = 0; i < count; ++i) {
-    const bool isBuffer =
-        kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(i) == CL_KERNEL_ARG_ADDRESS_GLOBAL;
-    const std::size_t bytes =
-        isBuffer ? sizeof(cl_mem) : valueBytes(kernel.getArgInfo<CL_KERNEL_ARG_TYPE_NAME>(i));
-    if (bytes == 0 || clSetKernelArg(kernel(), i, bytes, isBuffer ? nullptr : zeros.data()) != CL_SUCCESS)
-      return false;
-  }
-  return true;
+/// A launch without rays, which does nothing.
+void launchIdle(Compute& compute, const cl::Program& program, const std::string& name, int workGroup) {
+  clTry("compiling kernel '" + name + "' for " + compute.device().name, [&] {
+    cl::Kernel kernel(program, name.c_str());
+    forEachStage([&]<typename S>(const S& nothing) {
+      if (name == S::stage.facts.name) setArguments(kernel, nothing);
+    });
+    const cl::NDRange items(static_cast<std::size_t>(workGroup));
+    compute.queue().enqueueNDRangeKernel(kernel, cl::NullRange, items, items);
+    compute.queue().finish();
+  });
 }
 
 /// Whether what one process compiled serves the next.
@@ -77,15 +62,16 @@ std::vector<KernelProgram> kernelPrograms(const SceneFeatures& features,
                                           const std::vector<std::string>& stages,
                                           const std::optional<std::filesystem::path>& folder) {
   std::vector<KernelProgram> programs;
-  for (const Part& part : parts()) {
+  for (const auto& [name, mayRelax] : kPrograms) {
     KernelProgram program;
-    for (const auto& stage : stages)
-      if (std::find(part.kernels.begin(), part.kernels.end(), stage) != part.kernels.end())
-        program.kernels.push_back(stage);
+    for (const Stage& stage : allStages())
+      if (stage.facts.program == std::string_view(name) &&
+          std::find(stages.begin(), stages.end(), stage.facts.name) != stages.end())
+        program.kernels.emplace_back(stage.facts.name);
     if (program.kernels.empty()) continue;
-    program.name = part.name;
-    program.mayRelax = part.mayRelax;
-    program.source = assembleKernelSource(part.files, folder);
+    program.name = name;
+    program.mayRelax = mayRelax;
+    program.source = assembleKernelSource(filesOf(name), folder);
     program.features = referencedFeatures(program.source, features.bits());
     programs.push_back(std::move(program));
   }
@@ -93,22 +79,15 @@ std::vector<KernelProgram> kernelPrograms(const SceneFeatures& features,
 }
 
 std::string buildOptions(const KernelProgram& program, const CompileTarget& target) {
-  return fmt::format("-cl-std=CL1.2 -cl-kernel-arg-info -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}{}",
-                     program.features, target.compactChunk,
+  return fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}{}", program.features,
+                     target.compactChunk,
                      target.relaxedArithmetic && program.mayRelax ? " -cl-fast-relaxed-math" : "");
 }
 
 cl::Program compileProgram(Compute& compute, const KernelProgram& program, const CompileTarget& target) {
   cl::Program built = compute.build(program.source, buildOptions(program, target),
                                     fmt::format("{} ({})", program.name, fmt::join(program.kernels, ", ")));
-  for (const auto& name : program.kernels)
-    clTry("compiling kernel '" + name + "' for " + compute.device().name, [&] {
-      cl::Kernel kernel(built, name.c_str());
-      if (!setZeroArguments(kernel)) return;
-      const cl::NDRange items(static_cast<std::size_t>(target.workGroup));
-      compute.queue().enqueueNDRangeKernel(kernel, cl::NullRange, items, items);
-      compute.queue().finish();
-    });
+  for (const auto& name : program.kernels) launchIdle(compute, built, name, target.workGroup);
   return built;
 }
 

@@ -1,21 +1,56 @@
-// The stages of Wavefront as a list; tests/cli compares it with the statistics of real renders.
+// The preparation of a render, with memory that is counted and not taken.
 #include "render/plan.h"
 
-namespace whittle {
+#include "render/preparation.h"
+#include "wavefront/stages.h"
 
-std::vector<std::string> plannedStages(const SceneFeatures& features, std::size_t lights, int bounces) {
-  std::vector<std::string> stages{"raygen", "intersect", "shade"};
-  const auto add = [&](std::initializer_list<const char*> names) {
-    stages.insert(stages.end(), names.begin(), names.end());
-  };
-  const bool shadows = features.has(Feature::SHADOWS), impulses = features.has(Feature::IMPULSES);
-  if (shadows || impulses) add({"compact_count", "scan_chunks"});
-  if (shadows) add({"compact_shadow", "occlude"});
-  if (lights > 1) add({"shade_light"});
-  if (impulses) add({"compact_impulse", "accumulate"});
-  if (features.has(Feature::BOTH_BRANCHES) && bounces >= 10) add({"find_long_runs"});
-  add({"film"});
-  return stages;
+namespace whittle {
+namespace {
+
+/// Ray queues of a picture whose queues are never cut.
+std::size_t usualQueues(const SceneFeatures& features) { return features.has(Feature::IMPULSES) ? 2 : 1; }
+
+/// What all buffers would take if nothing were left out.
+std::uint64_t bytesOfEverything(Compute& compute, const Scene& scene, const Settings& settings,
+                                const Decisions& decisions, const TriTree& tree) {
+  Settings all = settings;
+  all.keepAllFeatures = true;
+  Decisions everything = decisions;
+  everything.pruned = unprunedScene(scene);
+  everything.features =
+      SceneFeatures::analyse(scene, everything.pruned, all, {compute.device().suitsPackets()});
+  SceneBuffers memory = allocateScene(compute, scene, settings, everything, tree);
+  memory.queues.reserve(usualQueues(everything.features));
+  std::vector<BufferStats> buffers;
+  memory.report(buffers);
+  std::uint64_t bytes = 0;
+  for (const auto& b : buffers) bytes += b.bytes;
+  return bytes;
+}
+
+}  // namespace
+
+RenderPlan planRender(const Scene& scene, const Settings& settings) {
+  constexpr auto kSizesOnly = Compute::Memory::SizesOnly;
+  checkSettings(settings);
+  Compute compute = openDevice(settings, kSizesOnly, Compute::Launches::Untimed);
+  Decisions decisions = decide(scene, settings, compute.device());
+  const PictureBuffers picture = allocatePicture(compute, settings, decisions, kSizesOnly);
+  const TriTree tree = buildTree(scene, decisions);
+  SceneBuffers memory = allocateScene(compute, scene, settings, decisions, tree);
+  memory.queues.reserve(usualQueues(decisions.features));
+
+  RenderPlan plan;
+  memory.report(plan.buffers);
+  picture.report(plan.buffers);
+  plan.everythingBytes = picture.order.bytes + picture.film.bytes + picture.aovs.bytes +
+                         bytesOfEverything(compute, scene, settings, decisions, tree);
+  plan.stages = plannedStages({decisions.features, memory.scene.lightCount, settings.bounces});
+  plan.device = compute.device();
+  plan.settings = settingsInEffect(settings, decisions, memory.queues);
+  plan.features = std::move(decisions.features);
+  plan.pruned = std::move(decisions.pruned);
+  return plan;
 }
 
 }  // namespace whittle

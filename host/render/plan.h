@@ -25,7 +25,4 @@ struct RenderPlan {
 /// Builds the tree, opens the device and allocates what a render would. Throws what render throws.
 RenderPlan planRender(const Scene& scene, const Settings& settings);
 
-/// The kernels that Wavefront may launch for these features and lights on the device, in order.
-std::vector<std::string> plannedStages(const SceneFeatures& features, std::size_t lights, int bounces);
-
 }  // namespace whittle

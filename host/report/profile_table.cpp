@@ -20,14 +20,6 @@ double megaRate(std::uint64_t items, double seconds) {
   return seconds > 0.0 ? static_cast<double>(items) / seconds * 1e-6 : 0.0;
 }
 
-/// What the items of a stage are.
-const char* unitOf(const std::string& stage) {
-  if (stage == "film") return "pixels";
-  if (stage == "scan_chunks") return "chunks";
-  if (stage.starts_with("compact") || stage == "accumulate" || stage == "find_long_runs") return "entries";
-  return "rays";
-}
-
 double sumOfSeconds(const std::vector<StageStats>& stages) {
   double sum = 0.0;
   for (const auto& s : stages) sum += s.seconds;
@@ -36,7 +28,7 @@ double sumOfSeconds(const std::vector<StageStats>& stages) {
 
 std::string row(const std::string& name, const StageStats& s, double all) {
   return fmt::format("{:<17}{:>8}{:>14} {:<7}{:>10.2f}{:>6.1f} %{:>9.1f}{:>6.1f}\n", name, s.launches,
-                     formatInteger(s.items), unitOf(s.name), s.seconds * 1e3,
+                     formatInteger(s.items), s.facts.unit, s.seconds * 1e3,
                      all > 0.0 ? 100.0 * s.seconds / all : 0.0, megaRate(s.items, s.seconds),
                      megaRate(s.bytes, s.seconds) * 1e-3);
 }
@@ -46,7 +38,7 @@ std::vector<std::pair<std::uint32_t, StageStats>> bouncesOf(const Stats& stats, 
   std::vector<std::pair<std::uint32_t, StageStats>> found;
   for (const auto& b : stats.bounces)
     for (const auto& s : b.stages)
-      if (s.name == stage) found.emplace_back(b.bounce, s);
+      if (s.facts.name == stage) found.emplace_back(b.bounce, s);
   return found;
 }
 
@@ -127,7 +119,7 @@ std::string profileTable(const Stats& stats) {
   auto stages = stats.stages;
   std::stable_sort(stages.begin(), stages.end(),
                    [](const auto& a, const auto& b) { return a.seconds > b.seconds; });
-  for (const auto& s : stages) out += row(s.name, s, all) + bounceRows(stats, s.name, all);
+  for (const auto& s : stages) out += row(s.facts.name, s, all) + bounceRows(stats, s.facts.name, all);
   out +=
       "M/s: million items a second. GB/s: queues and film read and written;\ntree, triangles and textures "
       "come on top.\n";

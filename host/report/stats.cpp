@@ -93,11 +93,12 @@ nlohmann::ordered_json memoryToJson(const std::vector<BufferStats>& buffers) {
 nlohmann::ordered_json stagesToJson(const std::vector<StageStats>& stages) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const auto& stage : stages)
-    list.push_back({{"name", stage.name},
+    list.push_back({{"name", stage.facts.name},
                     {"launches", stage.launches},
                     {"seconds", stage.seconds},
                     {"items", stage.items},
-                    {"bytes", stage.bytes}});
+                    {"bytes", stage.bytes},
+                    {"perWorkItem", stage.perWorkItem}});
   return list;
 }
 
@@ -118,6 +119,11 @@ nlohmann::ordered_json phasesToJson(const std::vector<PhaseStats>& phases) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json stageFactsToJson(const StageFacts& facts) {
+  return {{"name", facts.name}, {"label", facts.label}, {"job", facts.job},    {"program", facts.program},
+          {"file", facts.file}, {"unit", facts.unit},   {"queue", facts.queue}};
+}
 
 nlohmann::ordered_json statsToJson(const Stats& s) {
   nlohmann::ordered_json json;
@@ -147,6 +153,8 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
                   {"total", s.time.total}};
   json["phases"] = phasesToJson(s.phases);
   json["stages"] = stagesToJson(s.stages);
+  for (std::size_t i = 0; i < s.stages.size(); ++i)
+    json["stages"][i].update(stageFactsToJson(s.stages[i].facts));
   json["bounces"] = nlohmann::ordered_json::array();
   for (const auto& b : s.bounces)
     json["bounces"].push_back({{"bounce", b.bounce}, {"stages", stagesToJson(b.stages)}});

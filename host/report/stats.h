@@ -8,16 +8,18 @@
 #include <vector>
 
 #include "analysis/pruning_report.h"
+#include "report/stage_facts.h"
 #include "scene/settings.h"
 
 namespace whittle {
 
 struct StageStats {
-  std::string name;  ///< = kernel = file = host method
+  StageFacts facts;
+  std::uint32_t perWorkItem = 1;  ///< items that a work item takes
   std::uint64_t launches = 0;
   double seconds = 0.0;     ///< on the device, from its event counters
-  std::uint64_t items = 0;  ///< rays, entries or pixels worked on, not padded work items
-  std::uint64_t bytes = 0;  ///< of queues and film, as queue_traffic.h counts them
+  std::uint64_t items = 0;  ///< not padded work items
+  std::uint64_t bytes = 0;  ///< of queues and film, as wavefront/stages.h counts them
 
   /// Adds the launches of another bounce of the same stage.
   void add(const StageStats& more) {
@@ -103,6 +105,8 @@ struct Stats {
 
 /// One key for each setting, camelCase, as the statistics file names them.
 nlohmann::ordered_json settingsToJson(const Settings& settings);
+/// One key for each fact of a stage.
+nlohmann::ordered_json stageFactsToJson(const StageFacts& facts);
 /// The statistics file.
 nlohmann::ordered_json statsToJson(const Stats& stats);
 

@@ -26,15 +26,6 @@ void nameRow(Text& out, int row, const char* event, const char* name) {
                  event, kProcess, row, name);
 }
 
-/// The queue that a stage serves: whose entries are its items.
-const char* queueOf(const std::string& stage) {
-  if (stage == "raygen" || stage == "intersect" || stage == "find_long_runs") return "rays";
-  if (stage == "compact_shadow" || stage == "occlude" || stage == "shade_light") return "shadow rays";
-  if (stage == "compact_impulse") return "impulses";
-  if (stage == "film") return "samples";
-  return "hits";
-}
-
 /// Microseconds to three digits, as device clocks tell no more than nanoseconds. (As integers, which are
 /// written faster than doubles.)
 struct Microseconds {
@@ -62,7 +53,7 @@ void launchArguments(Text& out, const Trace::Launch& l, double seconds) {
   fmt::format_to(std::back_inserter(out),
                  FMT_COMPILE(R"(,"args":{{"batch":{},"bounce":{},"queue":"{}",)"
                              R"("items":{},"bytes":{},"waited us":{}.{:03}}})"),
-                 l.batch, l.bounce, queueOf(l.stage), l.items, l.bytes, waited.whole, waited.thousandths);
+                 l.batch, l.bounce, l.queue, l.items, l.bytes, waited.whole, waited.thousandths);
 }
 
 }  // namespace

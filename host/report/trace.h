@@ -20,7 +20,8 @@ class Trace {
   enum class Track { Host = 1, Compiler = 2, Device = 3 };
 
   struct Launch {
-    std::string stage;
+    const char* stage = "";
+    const char* queue = "";    ///< whose entries its items are
     std::uint32_t batch = 0;   ///< of the render, from 0
     std::uint32_t bounce = 0;  ///< 1 = what the eye sees; 0: a stage outside the bounces
     std::uint64_t items = 0;

@@ -238,6 +238,15 @@ std::string groupOf(const std::string& name) {
 
 }  // namespace
 
+std::vector<const Buffer*> DeviceScene::buffers() const {
+  std::vector<const Buffer*> all;
+  const auto add = [&](const auto& argument) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(argument)>, Buffer>) all.push_back(&argument);
+  };
+  std::apply([&](const auto&... argument) { (add(argument), ...); }, arguments());
+  return all;
+}
+
 void DeviceScene::report(std::vector<BufferStats>& out) const {
   for (const Buffer* b : buffers())
     if (*b) out.push_back({b->name, groupOf(b->name), b->bytes});
@@ -290,7 +299,7 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   d.lightCount = static_cast<std::uint32_t>(lights.size());
   d.lights = compute.upload("lights", lights);
   if (features.has(Feature::BACKGROUND_MAP))
-    d.background = compute.upload("background", scene.background.map);
+    d.backgroundMap = compute.upload("background", scene.background.map);
   return d;
 }
 

@@ -9,21 +9,21 @@
 #include "cl/program.h"
 #include "report/stats.h"
 #include "scene/scene.h"
+#include "wavefront/arguments_macro.h"
 
 namespace whittle {
 
 struct DeviceScene {
-  // In the order of SCENE_PARAMS (kernels/lib/scene.cl).
   Buffer nodes, triangles, corners, indices32, normals, tangents, uv0, uv1, colors, materials, textures,
-      texels, linearFromSrgb, lights, background, bvh8Nodes, leaves;
+      texels, linearFromSrgb, lights, backgroundMap, bvh8Nodes, leaves;
   std::uint32_t triangleCount = 0;  ///< not counting the degenerate sentinel at the end
   std::uint32_t lightCount = 0;
 
-  std::vector<const Buffer*> buffers() const {
-    return {&nodes,      &triangles, &corners,   &indices32, &normals, &tangents,       &uv0,
-            &uv1,        &colors,    &materials, &textures,  &texels,  &linearFromSrgb, &lights,
-            &background, &bvh8Nodes, &leaves};
-  }
+  /// SCENE_PARAMS of kernels/lib/scene.cl.
+  WHITTLE_ARGUMENTS(nodes, triangles, corners, indices32, normals, tangents, uv0, uv1, colors, materials,
+                    textures, texels, linearFromSrgb, lights, backgroundMap, bvh8Nodes, leaves, triangleCount)
+
+  std::vector<const Buffer*> buffers() const;
   void report(std::vector<BufferStats>& out) const;
 };
 

@@ -7,6 +7,7 @@
 #include "analysis/scene_features.h"
 #include "cl/program.h"
 #include "report/stats.h"
+#include "wavefront/stages.h"
 
 namespace whittle {
 
@@ -28,9 +29,8 @@ class RayQueues {
   std::uint32_t segmentLimit() const { return segmentLimit_; }
   /// Without distances where nothing asks for them.
   std::uint32_t hitPlanes() const { return hitPlanes_; }
-  std::size_t hitBytes() const { return hitPlanes_ * sizeof(float); }
-  /// Of one entry's flags; 0 where nothing is found that has to be compacted.
-  std::size_t flagBytes() const { return flagBytes_; }
+  /// Flags take none where nothing is found that has to be compacted.
+  EntryBytes entryBytes() const { return {hitPlanes_ * sizeof(float), flagBytes_, rayPlanes_ > RAY_SLOT}; }
 
   /// A free ray queue; give it back with release. Queues are kept and reused.
   Buffer acquire();

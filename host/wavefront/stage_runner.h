@@ -1,17 +1,16 @@
-// Launches the stages' kernels and keeps their times. A stage has one name: kernel, file, host method,
-// profiler label.
+// Launches stages and keeps their times.
 #pragma once
 
 #include <cstdint>
 #include <string>
-#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
 #include "cl/program.h"
 #include "report/stats.h"
 #include "report/trace.h"
-#include "wavefront/device_scene.h"
+#include "wavefront/kernel_arguments.h"
+#include "wavefront/stages.h"
 
 namespace whittle {
 
@@ -20,29 +19,25 @@ namespace whittle {
 /// work at the end of every launch.
 int defaultWorkGroup(const SceneFeatures& features);
 
-/// What a launch works on: items as statistics count them, and the bytes of queues and film that it moves
-/// (queue_traffic.h).
-struct StageWork {
-  StageWork(std::uint64_t itemCount, std::uint64_t byteCount = 0) : items(itemCount), bytes(byteCount) {}
-  std::uint64_t items, bytes;
-};
+/// Chunks of the compaction: long ones for few CPU threads, short ones for the many of a GPU.
+std::uint32_t defaultCompactChunk(const DeviceInfo& device);
 
 class StageRunner {
  public:
   /// `workGroup` work items at a time; every launch of a kernel uses the same, because PoCL compiles each
   /// anew.
-  StageRunner(Compute& compute, const std::vector<cl::Program>& programs, int workGroup);
+  StageRunner(Compute& compute, const std::vector<cl::Program>& programs, int workGroup,
+              const LaunchWidths& widths, const EntryBytes& entryBytes = {});
 
-  /// Runs `kernel` over `workItems` work items. Arguments in the kernel's
-  /// order: Buffers (empty ones become null pointers), a DeviceScene (expands to SCENE_PARAMS), or plain
-  /// values.
-  template <typename... Args>
-  void run(const std::string& kernel, std::uint64_t workItems, StageWork work, const Args&... args) {
-    if (workItems == 0) return;
-    cl::Kernel& k = find(kernel);
-    cl_uint index = 0;
-    (set(k, kernel, index, args), ...);
-    launch(kernel, k, workItems, work);
+  /// Launches a stage unless it has no items. `moreBytes`: what its arguments do not tell of the bytes that
+  /// it moves.
+  template <typename S>
+  void run(const S& stage, Bytes moreBytes = 0) {
+    if (stage.items() == 0) return;
+    cl::Kernel& kernel = find(S::stage.facts.name);
+    setArguments(kernel, stage);
+    launch(S::stage, kernel, workItemsOf(stage, widths_),
+           {stage.items(), stage.bytes(entryBytes_) + moreBytes});
   }
 
   /// Keeps every launch for `trace` (null: none, the usual case). Launches count as of a batch and a bounce
@@ -52,8 +47,9 @@ class StageRunner {
   void setBounce(std::uint32_t bounce) { bounce_ = bounce; }
 
   /// Bytes of the stage's last launch in this bounce that only its result tells.
-  void addBytes(const std::string& name, std::uint64_t bytes) {
-    stages_[stageIndex(name)].stage.bytes += bytes;
+  template <typename S>
+  void addBytes(Bytes bytes) {
+    stages_[stageIndex(S::stage)].stats.bytes += bytes;
   }
 
   /// Work on the host from now to the end of the scope, for the trace.
@@ -67,42 +63,33 @@ class StageRunner {
   std::vector<BounceStats> statsByBounce();
 
  private:
+  /// What a launch works on.
+  struct Work {
+    std::uint64_t items = 0;
+    Bytes bytes = 0;
+  };
   struct Launch {
-    std::size_t stage;
+    std::size_t stage;  ///< index in stages_
     cl::Event event;
-    StageWork work{0};
+    Work work;
     std::uint32_t batch = 0;
     double enqueued = 0.0;  ///< seconds of the steady clock, right after the launch; only when recording
   };
   struct StageOfBounce {
     std::uint32_t bounce = 0;
-    StageStats stage;
+    StageStats stats;
   };
 
-  cl::Kernel& find(const std::string& name);
+  cl::Kernel& find(const char* name);
   /// Of the present bounce.
-  std::size_t stageIndex(const std::string& name);
-  void launch(const std::string& name, cl::Kernel& kernel, std::uint64_t workItems, StageWork work);
+  std::size_t stageIndex(const Stage& stage);
+  void launch(const Stage& stage, cl::Kernel& kernel, std::uint64_t workItems, Work work);
   void recordLaunch(const Launch& launch, std::uint64_t start, std::uint64_t end);
-  void setBytes(cl::Kernel& kernel, const std::string& name, cl_uint index, std::size_t bytes,
-                const void* value);
-  void setBuffer(cl::Kernel& kernel, const std::string& name, cl_uint index, const Buffer& buffer);
-
-  void set(cl::Kernel& k, const std::string& name, cl_uint& index, const Buffer& b) {
-    setBuffer(k, name, index++, b);
-  }
-  void set(cl::Kernel& k, const std::string& name, cl_uint& index, const DeviceScene& scene) {
-    for (const Buffer* b : scene.buffers()) setBuffer(k, name, index++, *b);
-    setBytes(k, name, index++, sizeof(scene.triangleCount), &scene.triangleCount);
-  }
-  template <typename T>
-  void set(cl::Kernel& k, const std::string& name, cl_uint& index, const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    setBytes(k, name, index++, sizeof(T), &value);
-  }
 
   Compute& compute_;
   std::size_t workGroup_;
+  LaunchWidths widths_;
+  EntryBytes entryBytes_;
   std::unordered_map<std::string, cl::Kernel> kernels_;  ///< of all programs
   std::vector<StageOfBounce> stages_;
   std::vector<Launch> launches_;

@@ -1,12 +1,10 @@
-// The render loop. Each method that launches is named after its kernel and its file in kernels/.
+// The render loop. Each method that launches is named after its stage.
 #include "wavefront/wavefront.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <utility>
-
-#include "wavefront/queue_traffic.h"
 
 namespace whittle {
 
@@ -100,14 +98,13 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
   intersect(queue, segment);
   shade(queue, segment, bounce);
   const Candidates found = countCandidates(segment);
-  stages_.addBytes("shade",
-                   traffic::shadowCandidates(found.shadow) + traffic::impulseCandidates(found.impulse));
+  stages_.addBytes<stages::Shade>(stages::Shade::bytesOf(found.shadow, found.impulse));
   tally_.cutOff[bounce - 1] += found.cutOff;
   occlude(compactShadow(segment, found.shadow));
   for (std::uint32_t light = 1; light < setup_.scene.lightCount; ++light) {
     shadeLight(queue, segment, light);
     const Candidates lit = countCandidates(segment);
-    stages_.addBytes("shade_light", traffic::shadowCandidates(lit.shadow));
+    stages_.addBytes<stages::ShadeLight>(stages::Shade::bytesOf(lit.shadow, 0));
     occlude(compactShadow(segment, lit.shadow));
   }
   if (bounce > 1) accumulate(queue, segment);
@@ -115,46 +112,70 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
 }
 
 void Wavefront::raygen(const Buffer& queue, std::uint32_t count) {
-  const bool slots = setup_.features.has(Feature::IMPULSES);
-  stages_.run("raygen", laneItems(count), {count, traffic::raygen(count, batch_.pixels, slots)},
-              setup_.camera, batch_, count, queues_.capacity(), *pixelOrder_, queue);
+  stages_.run(stages::Raygen{.camera = setup_.camera,
+                             .batch = batch_,
+                             .count = count,
+                             .capacity = queues_.capacity(),
+                             .pixelOrder = *pixelOrder_,
+                             .rays = queue});
   tally_.primary += count;
   tally_.produced += count;
 }
 
 void Wavefront::intersect(const Buffer& queue, Segment segment) {
-  stages_.run("intersect", searchItems(segment.count()),
-              {segment.count(), traffic::intersect(segment.count(), queues_.hitBytes())}, setup_.scene,
-              segment.begin, segment.count(), queues_.capacity(), queue, queues_.hits, queues_.hitPlanes());
+  stages_.run(stages::Intersect{.scene = setup_.scene,
+                                .first = segment.begin,
+                                .count = segment.count(),
+                                .capacity = queues_.capacity(),
+                                .rays = queue,
+                                .hits = queues_.hits,
+                                .hitPlanes = queues_.hitPlanes()});
 }
 
 void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce) {
-  const bool throughputs = bounce > 1 && bounce < setup_.bounces;
-  const auto bytes = traffic::shade(segment.count(), throughputs, queues_.hitBytes(), queues_.flagBytes());
-  stages_.run("shade", laneItems(segment.count()), {segment.count(), bytes}, setup_.scene, setup_.constants,
-              batch_, segment.begin, segment.count(), queues_.capacity(), bounce, setup_.bounces,
-              setup_.camera.width, setup_.camera.width * setup_.camera.height, *pixelOrder_, queue,
-              queues_.hits, *radiance_, queues_.shadows, queues_.impulses, queues_.flags, aovs_);
+  stages_.run(stages::Shade{.scene = setup_.scene,
+                            .constants = setup_.constants,
+                            .batch = batch_,
+                            .first = segment.begin,
+                            .count = segment.count(),
+                            .capacity = queues_.capacity(),
+                            .bounce = bounce,
+                            .lastBounce = setup_.bounces,
+                            .width = setup_.camera.width,
+                            .pixels = setup_.camera.width * setup_.camera.height,
+                            .pixelOrder = *pixelOrder_,
+                            .rays = queue,
+                            .hits = queues_.hits,
+                            .entryRadiance = *radiance_,
+                            .shadows = queues_.shadows,
+                            .impulses = queues_.impulses,
+                            .flags = queues_.flags,
+                            .aovs = aovs_});
   tally_.finished += segment.count();
 }
 
 void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t light) {
-  stages_.run(
-      "shade_light", laneItems(segment.count()),
-      {segment.count(), traffic::shadeLight(segment.count(), queues_.hitBytes(), queues_.flagBytes())},
-      setup_.scene, setup_.constants, segment.begin, segment.count(), queues_.capacity(), light, queue,
-      queues_.hits, *radiance_, queues_.shadows, queues_.flags);
+  stages_.run(stages::ShadeLight{.scene = setup_.scene,
+                                 .constants = setup_.constants,
+                                 .first = segment.begin,
+                                 .count = segment.count(),
+                                 .capacity = queues_.capacity(),
+                                 .light = light,
+                                 .rays = queue,
+                                 .hits = queues_.hits,
+                                 .entryRadiance = *radiance_,
+                                 .shadows = queues_.shadows,
+                                 .flags = queues_.flags});
 }
 
 Wavefront::Candidates Wavefront::countCandidates(Segment segment) {
   if (!queues_.flags) return {};
-  const std::uint32_t chunks = chunksOf(segment);
-  stages_.run("compact_count", chunks,
-              {segment.count(), traffic::compactCount(segment.count(), queues_.flagBytes())}, segment.count(),
-              queues_.flags, queues_.totals);
-  const std::uint32_t kinds = setup_.features.has(Feature::CUTOFF) ? 3 : 2;
-  stages_.run("scan_chunks", kinds, {chunks, traffic::scanChunks(chunks, kinds)}, chunks, queues_.totals,
-              queues_.sums);
+  stages_.run(
+      stages::CompactCount{.count = segment.count(), .flags = queues_.flags, .totals = queues_.totals});
+  stages_.run(stages::ScanChunks{.chunks = chunksOf(segment),
+                                 .totals = queues_.totals,
+                                 .sums = queues_.sums,
+                                 .kinds = setup_.features.has(Feature::CUTOFF) ? 3U : 2U});
   std::array<std::uint32_t, 4> sums{};
   const auto work = stages_.hostWork("wait for counts");
   compute_.read(queues_.sums, 0, queues_.sums.bytes, sums.data());
@@ -163,17 +184,22 @@ Wavefront::Candidates Wavefront::countCandidates(Segment segment) {
 
 std::uint32_t Wavefront::compactShadow(Segment segment, std::uint32_t found) {
   if (found == 0) return 0;
-  stages_.run("compact_shadow", chunksOf(segment),
-              {segment.count(), traffic::compactShadow(segment.count(), found, queues_.flagBytes())},
-              segment.count(), queues_.flags, queues_.totals, queues_.shadowQueue);
+  stages_.run(stages::CompactShadow{.count = segment.count(),
+                                    .flags = queues_.flags,
+                                    .offsets = queues_.totals,
+                                    .shadowQueue = queues_.shadowQueue},
+              stages::CompactShadow::bytesOf(found));
   tally_.shadow += found;
   return found;
 }
 
 void Wavefront::occlude(std::uint32_t count) {
-  if (count == 0) return;
-  stages_.run("occlude", searchItems(count), {count, traffic::occlude(count)}, setup_.scene, count,
-              queues_.capacity(), queues_.shadowQueue, queues_.shadows, *radiance_);
+  stages_.run(stages::Occlude{.scene = setup_.scene,
+                              .count = count,
+                              .capacity = queues_.capacity(),
+                              .shadowQueue = queues_.shadowQueue,
+                              .shadows = queues_.shadows,
+                              .entryRadiance = *radiance_});
 }
 
 std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, std::uint32_t found,
@@ -181,27 +207,39 @@ std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, st
   if (found == 0) return 0;
   assert(found <= queues_.capacity());
   next = queues_.acquire();
-  stages_.run("compact_impulse", chunksOf(segment),
-              {segment.count(), traffic::compactImpulse(segment.count(), found, queues_.flagBytes())},
-              segment.begin, segment.count(), queues_.capacity(), queues_.flags, queues_.totals,
-              queues_.impulses, queue, next);
+  stages_.run(stages::CompactImpulse{.first = segment.begin,
+                                     .count = segment.count(),
+                                     .capacity = queues_.capacity(),
+                                     .flags = queues_.flags,
+                                     .offsets = queues_.totals,
+                                     .impulses = queues_.impulses,
+                                     .rays = queue,
+                                     .next = next},
+              stages::CompactImpulse::bytesOf(found));
   tally_.impulse += found;
   tally_.produced += found;
   return found;
 }
 
 void Wavefront::accumulate(const Buffer& queue, Segment segment) {
-  stages_.run("accumulate", segment.count(), {segment.count(), traffic::accumulate(segment.count())},
-              segment.begin, segment.count(), queues_.capacity(), queue, queues_.entryRadiance,
-              queues_.sampleRadiance);
+  stages_.run(stages::Accumulate{.first = segment.begin,
+                                 .count = segment.count(),
+                                 .capacity = queues_.capacity(),
+                                 .rays = queue,
+                                 .entryRadiance = queues_.entryRadiance,
+                                 .sampleRadiance = queues_.sampleRadiance});
 }
 
 void Wavefront::film(const Buffer& blocks) {
   const std::uint32_t pixels = setup_.camera.width * setup_.camera.height;
-  const auto planes = static_cast<std::uint32_t>(film_.bytes / sizeof(float) / pixels);
-  const auto bytes = traffic::film(batch_.pixels, batch_.samples, planes, batch_.firstSample == 0);
-  stages_.run("film", laneItems(batch_.pixels), {batch_.pixels, bytes}, batch_, queues_.capacity(), pixels,
-              planes, blocks, queues_.sampleRadiance, film_, counters_);
+  stages_.run(stages::Film{.batch = batch_,
+                           .capacity = queues_.capacity(),
+                           .pixels = pixels,
+                           .planes = static_cast<std::uint32_t>(film_.bytes / sizeof(float) / pixels),
+                           .blocks = blocks,
+                           .sampleRadiance = queues_.sampleRadiance,
+                           .sums = film_,
+                           .counters = counters_});
 }
 
 std::uint32_t Wavefront::chunksOf(Segment segment) const {
@@ -209,8 +247,7 @@ std::uint32_t Wavefront::chunksOf(Segment segment) const {
 }
 
 bool Wavefront::mayHaveLongRuns(std::uint32_t count, std::uint32_t bounce) const {
-  // A sample has at most 2^(bounce-1) entries in the queue of a bounce.
-  return setup_.features.has(Feature::BOTH_BRANCHES) && count > LONG_RUN && bounce >= 10;
+  return count > LONG_RUN && StageConditions{setup_.features, 0, static_cast<int>(bounce)}.longRuns();
 }
 
 bool Wavefront::hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint32_t bounce) {
@@ -219,19 +256,11 @@ bool Wavefront::hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint3
   const std::size_t offset = COUNTER_LONG_RUN * sizeof(std::uint32_t);
   clTry("clearing a counter",
         [&] { compute_.queue().enqueueWriteBuffer(counters_.handle, CL_TRUE, offset, sizeof(zero), &zero); });
-  stages_.run("find_long_runs", count, {count, traffic::findLongRuns(count)}, count, queues_.capacity(),
-              queue, counters_);
+  stages_.run(stages::FindLongRuns{
+      .count = count, .capacity = queues_.capacity(), .rays = queue, .counters = counters_});
   std::uint32_t found = 0;
   compute_.read(counters_, offset, sizeof(found), &found);
   return found != 0;
-}
-
-std::uint32_t Wavefront::laneItems(std::uint32_t entries) const {
-  return setup_.features.has(Feature::PACKETS) ? (entries + ENTRY_LANES - 1) / ENTRY_LANES : entries;
-}
-
-std::uint32_t Wavefront::searchItems(std::uint32_t rays) const {
-  return setup_.features.has(Feature::PACKETS) ? (rays + PACKET_RAYS - 1) / PACKET_RAYS : rays;
 }
 
 std::uint32_t Wavefront::nonFinite() {

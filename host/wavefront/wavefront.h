@@ -95,9 +95,6 @@ class Wavefront {
   std::vector<Segment> cut(const Buffer& queue, std::uint32_t count, std::uint32_t bounce);
   bool mayHaveLongRuns(std::uint32_t count, std::uint32_t bounce) const;
   bool hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint32_t bounce);
-  /// Work items of a kernel whose items handle LANES entries each.
-  std::uint32_t laneItems(std::uint32_t entries) const;
-  std::uint32_t searchItems(std::uint32_t rays) const;
 
   Compute& compute_;
   StageRunner& stages_;

@@ -46,7 +46,8 @@ class Compaction {
     const Buffer queue =
         bench.compute.upload("shadowQueue", std::vector<std::uint32_t>(kCapacity, kUntouched));
     scan(f, count, 0);
-    bench.stages.run("compact_shadow", chunks(count), count, count, f, totals_, queue);
+    bench.stages.run(
+        stages::CompactShadow{.count = count, .flags = f, .offsets = totals_, .shadowQueue = queue});
     return bench.read<std::uint32_t>(queue, kCapacity);
   }
 
@@ -60,16 +61,20 @@ class Compaction {
     const Buffer next =
         bench.compute.upload("next", std::vector<std::uint32_t>(RAY_PLANES * kCapacity, kUntouched));
     scan(f, count, 1);
-    bench.stages.run("compact_impulse", chunks(count), count, first, count, kCapacity, f, totals_, from,
-                     queue, next);
+    bench.stages.run(stages::CompactImpulse{.first = first,
+                                            .count = count,
+                                            .capacity = kCapacity,
+                                            .flags = f,
+                                            .offsets = totals_,
+                                            .impulses = from,
+                                            .rays = queue,
+                                            .next = next});
     return bench.read<std::uint32_t>(next, RAY_PLANES * kCapacity);
   }
 
   /// What stands above the flags, summed over the entries.
   std::uint64_t cutOff(const std::vector<std::uint32_t>& flags, std::uint32_t count) {
-    const Buffer f = upload(flags);
-    bench.stages.run("compact_count", chunks(count), count, count, f, totals_);
-    bench.stages.run("scan_chunks", 3, chunks(count), chunks(count), totals_, sums_);
+    countAndScan(upload(flags), count, 3);
     const auto sums = bench.read<std::uint32_t>(sums_, 4);
     return std::uint64_t{sums[3]} << 32 | sums[2];
   }
@@ -83,10 +88,14 @@ class Compaction {
     return bench.compute.upload("flags", std::vector<std::uint8_t>(flags.begin(), flags.end()));
   }
   std::uint32_t chunks(std::uint32_t count) const { return (count + chunk_ - 1) / chunk_; }
+  void countAndScan(const Buffer& flags, std::uint32_t count, std::uint32_t kinds) {
+    bench.stages.run(stages::CompactCount{.count = count, .flags = flags, .totals = totals_});
+    bench.stages.run(
+        stages::ScanChunks{.chunks = chunks(count), .totals = totals_, .sums = sums_, .kinds = kinds});
+  }
   /// kind: 0 shadow rays, 1 impulses.
   void scan(const Buffer& flags, std::uint32_t count, std::size_t kind) {
-    bench.stages.run("compact_count", chunks(count), count, count, flags, totals_);
-    bench.stages.run("scan_chunks", 2, chunks(count), chunks(count), totals_, sums_);
+    countAndScan(flags, count, 2);
     found = bench.read<std::uint32_t>(sums_, 2)[kind];
   }
 
@@ -190,8 +199,10 @@ TEST(FindLongRuns, ReportsASampleLongerThanTheLimit) {
     for (std::uint32_t i = 0; i < runLength; ++i) rays[RAY_SLOT * kCapacity + runBegin + i] = 7;
     const Buffer counters =
         compaction.bench.compute.upload("counters", std::vector<std::uint32_t>(COUNTERS, 0));
-    compaction.bench.stages.run("find_long_runs", count, count, count, kCapacity,
-                                compaction.bench.compute.upload("rays", rays), counters);
+    compaction.bench.stages.run(stages::FindLongRuns{.count = count,
+                                                     .capacity = kCapacity,
+                                                     .rays = compaction.bench.compute.upload("rays", rays),
+                                                     .counters = counters});
     return compaction.bench.read<std::uint32_t>(counters, COUNTERS)[COUNTER_LONG_RUN] != 0;
   };
   EXPECT_FALSE(reported(0, LONG_RUN, kCapacity));

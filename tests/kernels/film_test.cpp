@@ -21,8 +21,13 @@ class FilmBench {
   }
   /// samples: [3][capacity], as many slots as the batch has.
   void add(const device::Batch& batch, std::uint32_t capacity, const std::vector<float>& samples) {
-    bench.stages.run("film", batch.pixels, batch.pixels, batch, capacity, kPixels, std::uint32_t{FILM_PLANES},
-                     Buffer{}, bench.compute.upload("samples", samples), sums_, counters_);
+    bench.stages.run(stages::Film{.batch = batch,
+                                  .capacity = capacity,
+                                  .pixels = kPixels,
+                                  .blocks = {},
+                                  .sampleRadiance = bench.compute.upload("samples", samples),
+                                  .sums = sums_,
+                                  .counters = counters_});
   }
   std::vector<float> sums() { return bench.read<float>(sums_, FILM_PLANES * kPixels); }
   std::uint32_t nonFinite() { return bench.read<std::uint32_t>(counters_, COUNTERS)[COUNTER_NONFINITE]; }
@@ -110,8 +115,12 @@ TEST(Accumulate, SameBitsAsASerialSum) {
         expected[c * kCapacity + slots[first + k]] +=
             rays[(RAY_THROUGHPUT + c) * kCapacity + first + k] * radiance[c * kCapacity + k];
     const Buffer samples = bench.compute.upload("sampleRadiance", before);
-    bench.stages.run("accumulate", count, count, first, count, kCapacity, bench.compute.upload("rays", rays),
-                     bench.compute.upload("entryRadiance", radiance), samples);
+    bench.stages.run(stages::Accumulate{.first = first,
+                                        .count = count,
+                                        .capacity = kCapacity,
+                                        .rays = bench.compute.upload("rays", rays),
+                                        .entryRadiance = bench.compute.upload("entryRadiance", radiance),
+                                        .sampleRadiance = samples});
     EXPECT_EQ(bench.read<float>(samples, 3 * kCapacity), expected)
         << "entries " << first << " to " << first + count;
   }

@@ -40,8 +40,12 @@ EyeRays eyeRays(test::KernelBench& bench, const Camera& camera, const Settings& 
   const Buffer order = bench.compute.upload("order", pixels);
   const Buffer rays = bench.compute.allocate("rays", RAY_PLANES * sizeof(float) * count);
   const device::Batch batch{0, count, 0, 1};
-  bench.stages.run("raygen", count, count, cameraToDevice(camera, settings), batch, count, count, order,
-                   rays);
+  bench.stages.run(stages::Raygen{.camera = cameraToDevice(camera, settings),
+                                  .batch = batch,
+                                  .count = count,
+                                  .capacity = count,
+                                  .pixelOrder = order,
+                                  .rays = rays});
   return {bench.read<float>(rays, static_cast<std::size_t>(RAY_PLANES) * count), count};
 }
 

@@ -140,8 +140,9 @@ TEST(EdgeCases, NoReintersection) {
     }
     const auto n = static_cast<std::uint32_t>(at.size());
     const Buffer out = lab.compute.allocate("out", std::size_t{9} * n * sizeof(float));
-    bench.stages->run("spawn_points", n, n, n, bench.deviceScene, lab.compute.upload("at", at),
-                      lab.compute.upload("b", barycentrics), lab.compute.upload("d", directions), out);
+    test::launchTestKernel(lab.compute, bench.program, "spawn_points", n, n, SceneArgument(bench.deviceScene),
+                           lab.compute.upload("at", at), lab.compute.upload("b", barycentrics),
+                           lab.compute.upload("d", directions), out);
     std::vector<float> points(std::size_t{9} * n);
     lab.compute.read(out, 0, out.bytes, points.data());
     std::vector<TestRay> leaving;

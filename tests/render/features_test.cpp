@@ -10,9 +10,9 @@
 #include "cl/kernel_source.h"
 #include "pictures.h"
 #include "programs/kernel_programs.h"
-#include "render/plan.h"
 #include "single_rays.h"
 #include "support/test_device.h"
+#include "wavefront/stages.h"
 
 namespace whittle::test {
 namespace {
@@ -43,7 +43,7 @@ class ProgramBuilds {
     const SceneFeatures features = SceneFeatures::ofBits(bits);
     std::string said;
     for (const KernelProgram& program :
-         kernelPrograms(features, plannedStages(features, 2, 16), testKernelFolder())) {
+         kernelPrograms(features, plannedStages({features, 2, 16}), testKernelFolder())) {
       if (!built_.emplace(program.name, program.features).second) continue;
       compute_.build(program.source, fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x}", program.features));
       said += compute_.buildLog();
@@ -80,7 +80,7 @@ std::uint64_t bitOf(Feature f) { return std::uint64_t{1} << static_cast<int>(f);
 /// Features that the programs of these settings are told of: their text comes to where it asks for them.
 std::uint64_t compiledIn(const SceneFeatures& features) {
   std::uint64_t bits = 0;
-  for (const KernelProgram& p : kernelPrograms(features, plannedStages(features, 1, 8))) bits |= p.features;
+  for (const KernelProgram& p : kernelPrograms(features, plannedStages({features, 1, 8}))) bits |= p.features;
   return bits;
 }
 

@@ -6,8 +6,8 @@
 
 #include "programs/compiler_process.h"
 #include "programs/referenced_features.h"
-#include "render/plan.h"
 #include "support/test_device.h"
+#include "wavefront/stages.h"
 
 namespace whittle::test {
 namespace {
@@ -87,14 +87,14 @@ TEST(KernelPrograms, EveryFeatureIsAskedForBySomeProgram) {
   for (const std::uint64_t bits : {all, searchesAlpha, all & ~bit(Feature::FILTERED_SHADOWS),
                                    all & ~bit(Feature::MIRROR), all & ~bit(Feature::VERTEX_NORMALS)})
     for (const auto& program :
-         kernelPrograms(SceneFeatures::ofBits(bits), plannedStages(SceneFeatures::ofBits(bits), 2, 16)))
+         kernelPrograms(SceneFeatures::ofBits(bits), plannedStages({SceneFeatures::ofBits(bits), 2, 16})))
       asked |= program.features;
   EXPECT_EQ(asked, all);
 }
 
 TEST(KernelPrograms, EveryPlannedStageIsInOne) {
   const SceneFeatures all = SceneFeatures::ofBits(~std::uint64_t{0} >> 1);
-  auto stages = plannedStages(all, 2, 16);
+  auto stages = plannedStages({all, 2, 16});
   std::vector<std::string> found;
   for (const auto& program : kernelPrograms(all, stages)) {
     for (const auto& kernel : program.kernels)
@@ -113,7 +113,7 @@ TEST(KernelPrograms, ShadingAloneAsksHowSurfacesLook) {
   const std::uint64_t rich = plain | bit(Feature::TEXTURES) | bit(Feature::UV0) |
                              bit(Feature::BASE_COLOR_TEXTURE) | bit(Feature::VERTEX_NORMALS) |
                              bit(Feature::MIRROR) | bit(Feature::METAL) | bit(Feature::SHADOWS);
-  const auto stages = plannedStages(SceneFeatures::ofBits(rich), 1, 8);
+  const auto stages = plannedStages({SceneFeatures::ofBits(rich), 1, 8});
   const auto one = kernelPrograms(SceneFeatures::ofBits(plain), stages),
              two = kernelPrograms(SceneFeatures::ofBits(rich), stages);
   ASSERT_EQ(one.size(), 3U);
@@ -124,7 +124,7 @@ TEST(KernelPrograms, ShadingAloneAsksHowSurfacesLook) {
 /// Searches must agree with each other to the bit, and the film's compensated sums must stay.
 TEST(KernelPrograms, ShadingAloneIsRelaxedAndOnlyWhenAskedFor) {
   const SceneFeatures all = SceneFeatures::ofBits(~std::uint64_t{0} >> 1);
-  for (const auto& program : kernelPrograms(all, plannedStages(all, 2, 16))) {
+  for (const auto& program : kernelPrograms(all, plannedStages({all, 2, 16}))) {
     const std::string strict = buildOptions(program, {1024, 8}),
                       relaxed = buildOptions(program, {1024, 8, true});
     EXPECT_EQ(strict.find("relaxed"), std::string::npos) << strict;
@@ -148,7 +148,7 @@ TEST(KernelPrograms, TheCompilerProcessIsToldEverything) {
 TEST(KernelPrograms, OthersAreCompiledBesideOnlyWhereThatTakesAWhile) {
   Compute compute = openTestDevice();
   const SceneFeatures features = SceneFeatures::ofBits(bit(Feature::PACKETS));
-  const auto programs = kernelPrograms(features, plannedStages(features, 0, 1));
+  const auto programs = kernelPrograms(features, plannedStages({features, 0, 1}));
   const CompileTarget target{1024, 8};
   compilePrograms(compute, programs, target);
   int asked = 0;

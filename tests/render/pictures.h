@@ -63,9 +63,9 @@ inline std::size_t differingPixels(const FloatImage& a, const FloatImage& b) {
 /// Launches and items of a stage; zeros if it never ran.
 inline StageStats stageOf(const Stats& stats, const std::string& name) {
   for (const auto& stage : stats.stages) {
-    if (stage.name == name) return stage;
+    if (stage.facts.name == name) return stage;
   }
-  return {name, 0, 0.0, 0};
+  return {};
 }
 
 }  // namespace whittle::test

@@ -19,8 +19,8 @@ TEST(RenderStats, CountsOfStagesAddUp) {
     EXPECT_EQ(stageOf(stats, "occlude").items, stats.rays.shadow) << name;
     EXPECT_EQ(stats.dropped, 0U) << name;
     for (const auto& stage : stats.stages) {
-      EXPECT_GT(stage.launches, 0U) << stage.name;
-      EXPECT_GE(stage.seconds, 0) << stage.name;
+      EXPECT_GT(stage.launches, 0U) << stage.facts.name;
+      EXPECT_GE(stage.seconds, 0) << stage.facts.name;
     }
   }
 }
@@ -38,10 +38,10 @@ TEST(RenderStats, NothingIsTimedWhereNobodyAsks) {
   double seconds = 0.0;
   for (std::size_t i = 0; i < timed.stats.stages.size(); ++i) {
     const StageStats &with = timed.stats.stages[i], &without = untimed.stats.stages[i];
-    EXPECT_EQ(with.launches, without.launches) << with.name;
-    EXPECT_EQ(with.items, without.items) << with.name;
-    EXPECT_EQ(with.bytes, without.bytes) << with.name;
-    EXPECT_EQ(without.seconds, 0.0) << without.name;
+    EXPECT_EQ(with.launches, without.launches) << with.facts.name;
+    EXPECT_EQ(with.items, without.items) << with.facts.name;
+    EXPECT_EQ(with.bytes, without.bytes) << with.facts.name;
+    EXPECT_EQ(without.seconds, 0.0) << without.facts.name;
     seconds += with.seconds;
   }
   EXPECT_GT(seconds, 0.0);

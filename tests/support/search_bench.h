@@ -64,18 +64,18 @@ class SearchBench {
  public:
   /// `testKernels` are appended to the program; give the same text for the same lab.
   SearchBench(SearchLab& lab, const Scene& scene, const SearchForm& form, const std::string& testKernels = {})
-      : compute_(lab.compute), raysEach_(form.lanes == Lanes::Sixteen ? PACKET_RAYS : 1) {
+      : compute_(lab.compute) {
     Settings settings;
     settings.search = form.search;
     settings.lanes = form.lanes;
     const auto features = SceneFeatures::analyse(scene, settings, {true});
-    auto& program = lab.programs[features.bits()];
+    program = lab.programs[features.bits()];
     if (!program())
-      program = compute_.build(
+      program = lab.programs[features.bits()] = compute_.build(
           assembleKernelSource({"intersect.cl", "occlude.cl", "lib/ray_offset.cl"}, testKernelFolder()) +
               "#line 1 \"test kernels\"\n" + testKernels,
           buildOptions(features.bits(), 1024));
-    stages.emplace(compute_, std::vector{program}, kWorkGroup);
+    stages.emplace(compute_, std::vector{program}, kWorkGroup, LaunchWidths{features.has(Feature::PACKETS)});
     std::vector<glm::uvec3> corners;
     for (const Triangle& t : scene.triangles) corners.emplace_back(t.v0, t.v1, t.v2);
     if (form.search == Search::Tree) {
@@ -100,8 +100,8 @@ class SearchBench {
     const Buffer in = compute_.upload("rays", queue);
     const std::vector<float> rubbish(std::size_t{HIT_PLANES} * capacity + QUEUE_PADDING, std::nanf(""));
     const Buffer out = compute_.upload("hits", rubbish);
-    stages->run("intersect", (count + raysEach_ - 1) / raysEach_, count, deviceScene, first, count, capacity,
-                in, out, std::uint32_t{HIT_PLANES});
+    stages->run(stages::Intersect{
+        .scene = deviceScene, .first = first, .count = count, .capacity = capacity, .rays = in, .hits = out});
     std::vector<float> hits(rubbish.size());
     compute_.read(out, 0, out.bytes, hits.data());
     std::vector<TestHit> result(count);
@@ -136,8 +136,12 @@ class SearchBench {
                  queue = compute_.upload("shadowQueue", order);
     const Buffer radiance =
         compute_.upload("entryRadiance", std::vector<float>(std::size_t{3} * capacity, 0.0F));
-    stages->run("occlude", (count + raysEach_ - 1) / raysEach_, count, deviceScene, count, capacity, queue,
-                candidates, radiance);
+    stages->run(stages::Occlude{.scene = deviceScene,
+                                .count = count,
+                                .capacity = capacity,
+                                .shadowQueue = queue,
+                                .shadows = candidates,
+                                .entryRadiance = radiance});
     std::vector<float> light(count);
     compute_.read(radiance, 0, count * sizeof(float), light.data());
     std::vector<bool> result(count);
@@ -147,13 +151,13 @@ class SearchBench {
 
   const TriTree& tree() const { return tree_; }
 
+  cl::Program program;
   std::optional<StageRunner> stages;
   DeviceScene deviceScene;
   std::uint32_t firstTriangle = 0;  ///< where a test has moved the first triangle of the tree to
 
  private:
   Compute& compute_;
-  std::uint32_t raysEach_;
   TriTree tree_;
 };
 

@@ -1,12 +1,11 @@
-// Bytes that stages move, against counts made by hand from what the kernels read and write.
-#include "wavefront/queue_traffic.h"
-
+// Bytes that stages move, (wavefront/stages.h) against counts made by hand from what the kernels read and
+// write.
 #include "pictures.h"
 
 namespace whittle::test {
 namespace {
 
-TEST(QueueTraffic, OfAMatteSceneIsWhatItsKernelsTouch) {
+TEST(StageBytes, OfAMatteSceneIsWhatItsKernelsTouch) {
   // No impulses: one bounce. Eye rays 6 floats and no slot, hits 3 without their distances, radiance 3, flags
   // a byte; a place for each pixel.
   Settings settings = smallSettings(1);
@@ -27,7 +26,7 @@ TEST(QueueTraffic, OfAMatteSceneIsWhatItsKernelsTouch) {
   EXPECT_EQ(stageOf(stats, "film").bytes, rays * 12 + pixels * 8 * 4);
 }
 
-TEST(QueueTraffic, CountsTheWiderFlagsOfACutoff) {
+TEST(StageBytes, CountsTheWiderFlagsOfACutoff) {
   Settings settings = smallSettings(2);
   const auto countBytes = [&] {
     return stageOf(renderOnDevice(ownScene("mirror"), settings).stats, "compact_count").bytes;

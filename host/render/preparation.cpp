@@ -1,0 +1,121 @@
+// See preparation.h.
+#include "render/preparation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cl/device.h"
+#include "scene/input_error.h"
+#include "wavefront/camera_to_device.h"
+#include "wavefront/film.h"
+#include "wavefront/pixel_order.h"
+#include "wavefront/stage_runner.h"
+
+namespace whittle {
+
+void checkSettings(const Settings& s) {
+  if (s.width < 1 || s.height < 1 || s.width > 65535 || s.height > 65535)
+    throw InputError(
+        fmt::format("--width/--height: {}×{} is not between 1×1 and 65535×65535", s.width, s.height));
+  if (s.bounces < 1) throw InputError("--bounces: at least 1");
+  if (!(s.cutoff >= 0.0F && s.cutoff <= kLargestCutoff))
+    throw InputError(fmt::format("--cutoff: not from 0 to {}", kLargestCutoff));
+  if (s.raysPerPixel < 1) throw InputError("--rays-per-pixel: at least 1");
+  if (s.adaptive && s.sampler == Sampler::Stratified)
+    throw InputError(
+        "--adaptive: stratified samples need the same number in every pixel; use --sampler sobol");
+}
+
+Compute openDevice(const Settings& settings, Compute::Memory memory, Compute::Launches launches) {
+  limitCpuThreads(settings.threads);
+  return Compute(selectDevice(listDevices(), settings.device), memory, launches);
+}
+
+Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo& device) {
+  Decisions d;
+  d.camera = findCamera(scene, settings.camera);
+  d.pruned = pruneScene(scene, settings);
+  d.features = SceneFeatures::analyse(scene, d.pruned, settings, {device.suitsPackets()});
+  d.compactChunk = defaultCompactChunk(device);
+  d.workGroup = settings.workGroup > 0 ? settings.workGroup : defaultWorkGroup(d.features);
+  if (static_cast<std::uint64_t>(d.workGroup) > device.maxWorkGroup)
+    throw InputError(fmt::format("--work-group: {} allows at most {}", device.name, device.maxWorkGroup));
+  return d;
+}
+
+PictureBuffers allocatePicture(Compute& compute, const Settings& settings, const Decisions& decisions,
+                               Compute::Memory memory) {
+  const std::size_t pixels = static_cast<std::size_t>(settings.width) * settings.height;
+  const std::size_t film = pixels * filmPlanes(settings.raysPerPixel) * sizeof(float),
+                    order = pixels * sizeof(std::uint32_t);
+  const std::size_t aovs = decisions.features.has(Feature::AOVS) ? pixels * AOV_PLANES * sizeof(float) : 0;
+  const DeviceInfo& device = compute.device();
+  if (film + order + aovs > device.globalMemory)
+    throw ClError(fmt::format("a picture of {}×{} needs {} for its film but {} has {}", settings.width,
+                              settings.height, formatBytes(film + order + aovs), device.name,
+                              formatBytes(device.globalMemory)));
+  PictureBuffers picture;
+  picture.film = compute.allocate("film", film);
+  picture.order = compute.allocate("pixelOrder", order);
+  picture.aovs = compute.allocate("aovs", aovs);
+  if (settings.adaptive) {
+    picture.passOrder = compute.allocate("passOrder", order);
+    picture.passBlocks =
+        compute.allocate("passBlocks", SampleCounts(pixels).blocks() * sizeof(std::uint32_t));
+  }
+  if (memory == Compute::Memory::SizesOnly) return picture;
+  picture.orderTable =
+      makePixelOrder(static_cast<std::uint32_t>(settings.width), static_cast<std::uint32_t>(settings.height));
+  compute.write(picture.order, picture.orderTable.data());
+  compute.fillZero(picture.film);
+  return picture;
+}
+
+void PictureBuffers::report(std::vector<BufferStats>& out) const {
+  for (const Buffer* b : {&order, &film, &aovs, &passOrder, &passBlocks})
+    if (*b) out.push_back({b->name, "film", b->bytes});
+}
+
+TriTree buildTree(const Scene& scene, const Decisions& decisions) {
+  TriTree tree;
+  if (decisions.features.has(Feature::TREE)) {
+    std::vector<glm::uvec3> corners;
+    corners.reserve(scene.triangles.size());
+    for (const auto& t : scene.triangles) corners.emplace_back(t.v0, t.v1, t.v2);
+    return buildTriTree(scene.positions, corners);
+  }
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) tree.order.push_back(i);
+  return tree;
+}
+
+namespace {
+
+/// Never more than the picture has samples (twice, for branching), never fewer than two long runs.
+std::uint32_t queueCapacity(const Settings& s) {
+  const std::uint64_t samples = static_cast<std::uint64_t>(s.width) * s.height * s.raysPerPixel;
+  const std::uint64_t wanted = std::min<std::uint64_t>(static_cast<std::uint64_t>(s.wavefront), 2 * samples);
+  return static_cast<std::uint32_t>((std::max<std::uint64_t>(wanted, 2 * LONG_RUN) + 63) / 64 * 64);
+}
+
+}  // namespace
+
+SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
+                           const Decisions& decisions, const TriTree& tree) {
+  return {uploadScene(compute, scene, decisions.pruned, tree, decisions.features),
+          RayQueues(compute, decisions.features, queueCapacity(settings), decisions.compactChunk)};
+}
+
+void SceneBuffers::report(std::vector<BufferStats>& out) const {
+  scene.report(out);
+  queues.report(out);
+}
+
+Settings settingsInEffect(const Settings& settings, const Decisions& decisions, const RayQueues& queues) {
+  Settings used = settings;
+  used.wavefront = static_cast<int>(queues.capacity());
+  used.workGroup = decisions.workGroup;
+  return used;
+}
+
+}  // namespace whittle

@@ -1,0 +1,65 @@
+// The phases before the first ray, each a function from what the ones before it returned: decide, allocate
+// the picture, allocate the scene. A render runs them all, planRender without taking any memory.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analysis/scene_features.h"
+#include "bvh/tri_tree.h"
+#include "cl/program.h"
+#include "render/phase_log.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+#include "wavefront/device_scene.h"
+#include "wavefront/ray_queues.h"
+
+namespace whittle {
+
+/// Throws InputError where a setting is out of its range, or two contradict each other.
+void checkSettings(const Settings& settings);
+
+/// The device that the settings ask for. Throws ClError or std::invalid_argument.
+Compute openDevice(const Settings& settings, Compute::Memory memory, Compute::Launches launches);
+
+/// What is settled before anything is allocated.
+struct Decisions {
+  std::size_t camera = 0;  ///< of Scene::cameras
+  PrunedScene pruned;      ///< what goes to the device
+  SceneFeatures features;
+  std::uint32_t compactChunk = 0;
+  int workGroup = 0;
+};
+/// Throws InputError: no such camera, a work-group that the device cannot have.
+Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo& device);
+
+/// The picture on the device, and the order of its pixels on both sides.
+struct PictureBuffers {
+  std::vector<std::uint32_t> orderTable;  ///< y << 16 | x; empty if only sizes are asked for
+  Buffer order, film, aovs;
+  Buffer passOrder, passBlocks;  ///< with Settings::adaptive
+
+  void report(std::vector<BufferStats>& out) const;
+};
+/// Throws ClError where the picture is too large for the device, before anything that takes time.
+PictureBuffers allocatePicture(Compute& compute, const Settings& settings, const Decisions& decisions,
+                               Compute::Memory memory);
+
+/// The tree, or with --search array the triangles in their order.
+TriTree buildTree(const Scene& scene, const Decisions& decisions);
+
+/// Scene and queues on the device.
+struct SceneBuffers {
+  DeviceScene scene;
+  RayQueues queues;
+
+  void report(std::vector<BufferStats>& out) const;
+};
+/// Throws ClError that names the buffer that does not fit.
+SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
+                           const Decisions& decisions, const TriTree& tree);
+
+/// With the sizes that were chosen where the user left them open.
+Settings settingsInEffect(const Settings& settings, const Decisions& decisions, const RayQueues& queues);
+
+}  // namespace whittle

@@ -29,15 +29,15 @@ class StageRunner {
   StageRunner(Compute& compute, const std::vector<cl::Program>& programs, int workGroup,
               const LaunchWidths& widths, const EntryBytes& entryBytes = {});
 
-  /// Launches a stage unless it has no items. `moreBytes`: what its arguments do not tell of the bytes that
-  /// it moves.
+  /// Launches a stage unless it has no work items. `moreBytes`: what its arguments do not tell of the bytes
+  /// that it moves.
   template <typename S>
   void run(const S& stage, Bytes moreBytes = 0) {
-    if (stage.items() == 0) return;
+    const std::uint64_t workItems = workItemsOf(stage, widths_);
+    if (workItems == 0) return;
     cl::Kernel& kernel = find(S::stage.facts.name);
     setArguments(kernel, stage);
-    launch(S::stage, kernel, workItemsOf(stage, widths_),
-           {stage.items(), stage.bytes(entryBytes_) + moreBytes});
+    launch(S::stage, kernel, workItems, {stage.items(), stage.bytes(entryBytes_) + moreBytes});
   }
 
   /// Keeps every launch for `trace` (null: none, the usual case). Launches count as of a batch and a bounce

@@ -1,5 +1,5 @@
-// Parse, run, exit status; the only place that catches. 0 done, 1 the run failed, 2 wrong usage or unusable
-// input.
+// Parse, run, exit status; the only place that catches. 0 done, 1 the run failed, 2
+// wrong usage or unusable input.
 #include <fmt/format.h>
 
 #include <cstdio>

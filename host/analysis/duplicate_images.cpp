@@ -13,8 +13,8 @@
 namespace whittle {
 namespace {
 
-/// Four sums side by side, each multiplied along (the odd constant of splitmix64), so that no step waits for
-/// the last.
+/// Four sums side by side, each multiplied along (the odd constant of splitmix64), so
+/// that no step waits for the last.
 std::uint64_t hashOf(const std::vector<std::uint8_t>& bytes) {
   constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;
   std::uint64_t sums[4] = {1, 2, 3, 4};

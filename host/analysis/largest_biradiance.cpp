@@ -1,4 +1,5 @@
-// See largest_biradiance.h. Ericson, Real-Time Collision Detection (2005), 5.1: nearest points of triangles.
+// Bounds on what a light delivers. Ericson, Real-Time Collision Detection (2005),
+// 5.1: nearest points of triangles.
 #include "analysis/largest_biradiance.h"
 
 #include <tbb/combinable.h>

@@ -1,5 +1,5 @@
-// What of a scene stays on the host, counted, with reasons: `whittle info` prints it, the statistics carry
-// it.
+// What of a scene stays on the host, counted, with reasons: `whittle info` prints
+// it, the statistics carry it.
 #pragma once
 
 #include <cstdint>

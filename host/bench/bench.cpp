@@ -1,4 +1,4 @@
-// See bench.h.
+// Times each contender in turn and compares what rays find.
 #include "bench/bench.h"
 
 #include <tbb/global_control.h>
@@ -33,8 +33,8 @@ void race(std::vector<Runner>& runners, int runs) {
     for (Runner& r : runners) r.seconds.push_back(r.run());
 }
 
-/// Another triangle at another distance: at the same distance two triangles share an edge, or lie in one
-/// plane.
+/// Another triangle at another distance: at the same distance two triangles share
+/// an edge, or lie in one plane.
 std::size_t differing(const std::vector<QueryHit>& a, const std::vector<QueryHit>& b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -1,4 +1,4 @@
-// See embree_baseline.h. Rays are copied from arrays of Embree's structs, block by block, and results
+// Embree, timed on given rays. Rays are copied from arrays of Embree's structs, block by block, and results
 // written back to arrays: what any user of Embree does.
 #include "bench/embree_baseline.h"
 

@@ -1,4 +1,4 @@
-// See query_runner.h.
+// Runs the search kernels on given rays, as a render would.
 #include "bench/query_runner.h"
 
 #include <fmt/format.h>

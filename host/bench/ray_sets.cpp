@@ -1,4 +1,4 @@
-// See ray_sets.h.
+// Makes the rays of each kind, from the camera and from hits.
 #include "bench/ray_sets.h"
 
 #include <algorithm>

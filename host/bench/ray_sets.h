@@ -28,23 +28,23 @@ struct QueryHit {
   std::int64_t triangle;
 };
 
-/// Eye rays of a 16:9 picture of about `count` pixels through the scene's first camera, in the renderer's
-/// pixel order.
+/// Eye rays of a 16:9 picture of about `count` pixels through the scene's first camera,
+/// in the renderer's pixel order.
 RaySet eyeRays(const Scene& scene, std::size_t count);
 
-/// From each hit of `from`, moved off the surface as the renderer does: to a point light (the scene's first,
-/// else a point above it), along the mirror direction, refracted into glass of index 1.5 (reflected where
-/// that is total), or cosine-distributed about the normal. Geometric normals. Rays that hit nothing leave
-/// none.
+/// From each hit of `from`, moved off the surface as the renderer does: to a point light (the scene's
+/// first, else a point above it), along the mirror direction, refracted into glass of index 1.5
+/// (reflected where that is total), or cosine-distributed about the normal. Geometric normals. Rays
+/// that hit nothing leave none.
 RaySet shadowRays(const Scene& scene, const RaySet& from, const std::vector<QueryHit>& hits);
 RaySet mirrorRays(const Scene& scene, const RaySet& from, const std::vector<QueryHit>& hits,
                   const std::string& kind);
 RaySet refractedRays(const Scene& scene, const RaySet& from, const std::vector<QueryHit>& hits);
 RaySet cosineRays(const Scene& scene, const RaySet& from, const std::vector<QueryHit>& hits);
 
-/// Origins anywhere in the box of the triangles, directions anywhere on the sphere. A flat box is made
-/// thicker: rays that start in a triangle hit it at distance 0, which is no hit to a renderer and one to
-/// Embree.
+/// Origins anywhere in the box of the triangles, directions anywhere on the sphere. A flat
+/// box is made thicker: rays that start in a triangle hit it at distance 0, which is no hit
+/// to a renderer and one to Embree.
 RaySet uniformRays(const Scene& scene, std::size_t count);
 
 }  // namespace whittle

@@ -1,5 +1,5 @@
-// See bvh8.h. Large subtrees are tasks of their own, each with its own array of nodes; these are put
-// behind one another, depth-first, once all sizes are known.
+// Collapses a two-wide tree. Large subtrees are tasks of their own, each with its own array of nodes; these
+// are put behind one another, depth-first, once all sizes are known.
 #include "bvh/bvh8.h"
 
 #include <tbb/parallel_for.h>

@@ -1,5 +1,5 @@
-// The eight-wide form of a TriTree, for searches that test one ray against eight boxes or eight triangles at
-// once.
+// The eight-wide form of a TriTree, for searches that test one ray against eight
+// boxes or eight triangles at once.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// See bvh8_plan.h. Bottom-up in parallel: a subtree is a run of nodes, children after their parents.
+// Which subtrees become nodes of the eight-wide tree. Bottom-up in parallel: a subtree is a run of
+// nodes, children after their parents.
 #include "bvh/bvh8_plan.h"
 
 #include <tbb/parallel_invoke.h>
@@ -141,8 +142,8 @@ Bvh8Children Bvh8Plan::childrenOf(std::int32_t n, std::int32_t end) const {
   return children;
 }
 
-/// Adds the children of a node that may have at most `most`, two or more; of equal ways the one of the
-/// fewest.
+/// Adds the children of a node that may have at most `most`, two or more; of
+/// equal ways the one of the fewest.
 void Bvh8Plan::shareOut(std::int32_t n, std::int32_t end, std::uint32_t most, Bvh8Children& out) const {
   Costs leaves[2], cost;
   const float* left = costsOf(n, 0, leaves[0]);

@@ -48,8 +48,8 @@ Partition partition(std::span<PrimRef> refs, const Test& sideTest) {
 
 namespace {
 
-/// Positions first..first+count-1 of the array hold triangles of the wrong side; `before` others do, further
-/// left.
+/// Positions first..first+count-1 of the array hold triangles of the wrong side;
+/// `before` others do, further left.
 struct Misplaced {
   std::size_t first, count, before;
 };

@@ -1,6 +1,5 @@
-// Puts the triangles of one side of a split before those of the other, in place.
-// The result depends on the input alone: the parallel version cuts the range at places that do not depend on
-// threads.
+// Puts the triangles of one side of a split before those of the other, in place. The result depends on the
+// input alone: the parallel version cuts the range at places that do not depend on threads.
 #pragma once
 
 #include <cstddef>

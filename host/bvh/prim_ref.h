@@ -31,8 +31,8 @@ struct Box4 {
   }
 };
 
-/// Half the surface area, in double: coordinates of 1e38 squared do not overflow, those of 1e-38 do not
-/// vanish.
+/// Half the surface area, in double: coordinates of 1e38 squared do not overflow,
+/// those of 1e-38 do not vanish.
 inline double halfArea(const Box4& b) {
   const double x = static_cast<double>(b.hi[0]) - static_cast<double>(b.lo[0]);
   const double y = static_cast<double>(b.hi[1]) - static_cast<double>(b.lo[1]);
@@ -40,8 +40,8 @@ inline double halfArea(const Box4& b) {
   return x * (y + z) + y * z;
 }
 
-/// Half areas of three boxes, lane k for box k, of edges multiplied by `scale`. NaN or infinite for empty
-/// boxes.
+/// Half areas of three boxes, lane k for box k, of edges multiplied by `scale`. NaN
+/// or infinite for empty boxes.
 inline Float4 halfAreas(const Box4 (&box)[3], Float4 scale) {
   const Float4 a = box[0].hi - box[0].lo, b = box[1].hi - box[1].lo, c = box[2].hi - box[2].lo;
   // Scaled only here: lane 3 of a, b, c may be a denormal, which is slow to multiply.

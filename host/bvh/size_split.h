@@ -1,7 +1,7 @@
-// A split by size instead of place: large boxes to one child, small ones to the other. Where a few triangles
-// span a node, every plane leaves one of them, and so the node's whole box, on the side of the detail; taken
-// out by themselves they cost one leaf. (A teapot in a stadium: all of the teapot lies in one bin of the
-// stadium.)
+// A split by size instead of place: large boxes to one child, small ones to the other. Where a few
+// triangles span a node, every plane leaves one of them, and so the node's whole box, on the side of
+// the detail; taken out by themselves they cost one leaf. (A teapot in a stadium: all of the teapot
+// lies in one bin of the stadium.)
 #pragma once
 
 #include <algorithm>

@@ -9,11 +9,10 @@
 
 namespace whittle {
 
-/// A node with two children, boxes stored in the parent so that one 64-byte line decides both. A child that
-/// is
-/// >= 0 is the index of a node; a child < 0 is a leaf: ~child packs (first << 4 | count - 1) into
-/// TriTree::order, count in 1..16. An absent child (trees of 0 or 1 leaves) has an empty box (lo = +inf, hi =
-/// -inf) and child = -1.
+/// A node with two children, boxes stored in the parent so that one 64-byte line decides both. A child
+/// that is not negative is the index of a node. A negative one is a leaf: ~child packs (first << 4 |
+/// count - 1) into TriTree::order, count in 1..16. An absent child (trees of 0 or 1 leaves) has an
+/// empty box (lo = +inf, hi = -inf) and child = -1.
 struct TreeNode {
   float lo[2][3];  ///< child boxes, world space, metres; already outer bounds of the float vertices
   float hi[2][3];

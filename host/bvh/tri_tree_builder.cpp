@@ -1,6 +1,5 @@
-// The recursion of the builder: where to split, when to stop, in which order nodes are laid out.
-// Binned SAH after Wald 2007, splits by size where every plane is poor; the depth limit falls back to object
-// medians.
+// The recursion of the builder: where to split, when to stop, in which order nodes are laid out. Binned SAH
+// after Wald 2007, splits by size where every plane is poor; the depth limit falls back to object medians.
 #include "bvh/tri_tree_builder.h"
 
 #include <tbb/parallel_invoke.h>

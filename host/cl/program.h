@@ -12,8 +12,8 @@
 
 namespace whittle {
 
-/// Device memory with a name, for messages and statistics. An empty one is passed to kernels as a null
-/// pointer.
+/// Device memory with a name, for messages and statistics. An empty one is passed
+/// to kernels as a null pointer.
 struct Buffer {
   std::string name;
   std::size_t bytes = 0;

@@ -1,4 +1,4 @@
-// See build_failure.h.
+// A failed kernel build as one line of error, with the compiler's log beside it.
 #include "cli/build_failure.h"
 
 #include <fmt/format.h>

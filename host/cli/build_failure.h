@@ -7,9 +7,9 @@
 
 namespace whittle::cli {
 
-/// Throws std::runtime_error with the first error in one line. Whoever reads kernels from a folder works on
-/// them: the whole log follows, indented. For others it goes to a file beside the temporary ones, which the
-/// line names.
+/// Throws std::runtime_error with the first error in one line. Whoever reads kernels from a folder
+/// works on them: the whole log follows, indented. For others it goes to a file beside the
+/// temporary ones, which the line names.
 [[noreturn]] void explainBuildFailure(const BuildError& e, const std::filesystem::path& kernelFolder);
 
 }  // namespace whittle::cli

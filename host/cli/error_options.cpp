@@ -12,8 +12,8 @@
 namespace whittle::cli {
 namespace {
 
-/// Rays for each pixel where a target or a limit decides: more than anyone waits for, few enough for every
-/// sampler.
+/// Rays for each pixel where a target or a limit decides: more than anyone waits for,
+/// few enough for every sampler.
 constexpr int kUntilStopped = 1 << 16;
 
 /// "0.002", or "1%" and "1 %": of the mean. One takes the place of the other.

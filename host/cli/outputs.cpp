@@ -41,8 +41,8 @@ bool isStream(const fs::path& file) {
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-/// To `path`, or to standard output as it is: opened anew, a file that it was redirected to would lose what
-/// it has.
+/// To `path`, or to standard output as it is: opened anew, a file that it was
+/// redirected to would lose what it has.
 void writeStream(const fs::path& path, const std::string& text) {
   const bool standard = isStandardOutput(path);
   std::FILE* const out = standard ? stdout : std::fopen(path.c_str(), "wb");

@@ -51,8 +51,8 @@ bool isToneMapped(const std::filesystem::path& file);
 /// "-": text goes to standard output, and nothing else does.
 bool isStandardOutput(const std::filesystem::path& file);
 
-/// Writes text to a file that appears whole or not at all; devices and pipes are written to as they are.
-/// Throws std::runtime_error.
+/// Writes text to a file that appears whole or not at all; devices and pipes are written to as they
+/// are. Throws std::runtime_error.
 void writeTextFile(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace whittle::cli

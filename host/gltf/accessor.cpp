@@ -1,4 +1,4 @@
-// See gltf_accessor.h.
+// Reads accessors element by element, checked against the bytes that are there; sparse overrides last.
 #include "gltf/accessor.h"
 
 #include <fmt/format.h>

@@ -15,8 +15,8 @@ bool isFloat(const tinygltf::Accessor& accessor);
 /// 8- or 16-bit integers, signed or not.
 bool isSmallInteger(const tinygltf::Accessor& accessor);
 
-/// All components of all elements as floats, normalised integers mapped to [-1, 1] or [0, 1]. Throws
-/// InputError.
+/// All components of all elements as floats, normalised integers mapped to [-1, 1]
+/// or [0, 1]. Throws InputError.
 std::vector<float> readFloats(Document& document, int accessor);
 /// The same for unsigned integers, as they are. The accessor must hold unsigned integers. Throws InputError.
 std::vector<std::uint32_t> readUnsigned(Document& document, int accessor);

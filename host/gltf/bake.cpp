@@ -1,6 +1,6 @@
-// See gltf_bake.h. Transforms are applied in double and rounded to float once. Normals go by the inverse
-// transpose, taken as the cofactor matrix with the sign of the determinant, which exists for singular
-// transforms too.
+// Puts meshes into world space. Transforms are applied in double and rounded to float once. Normals go
+// by the inverse transpose, taken as the cofactor matrix with the sign of the determinant, which
+// exists for singular transforms too.
 #include "gltf/bake.h"
 
 #include <fmt/format.h>
@@ -21,8 +21,8 @@ struct VertexTransform {
     for (int c = 0; c < 3; ++c) {
       for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(linear[c][r]));
     }
-    // Only directions come out of `linear` and `cofactors`: scaled to about 1 they neither overflow nor
-    // vanish.
+    // Only directions come out of `linear` and `cofactors`: scaled to about 1 they
+    // neither overflow nor vanish.
     if (largest > 0.0 && std::isfinite(largest)) linear /= largest;
     const glm::dmat3& l = linear;
     cofactors = glm::dmat3(glm::cross(l[1], l[2]), glm::cross(l[2], l[0]), glm::cross(l[0], l[1]));
@@ -90,8 +90,8 @@ std::vector<std::uint32_t> usedVertices(const LocalMesh& mesh, std::uint32_t fir
   return target;
 }
 
-/// Copies the used elements of an attribute behind `array`, which starts to exist with the first mesh that
-/// has it.
+/// Copies the used elements of an attribute behind `array`, which starts to exist
+/// with the first mesh that has it.
 template <class Vector>
 void append(std::vector<Vector>& array, const std::vector<Vector>& values,
             const std::vector<std::uint32_t>& target, std::size_t before, std::size_t after,

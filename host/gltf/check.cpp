@@ -1,5 +1,5 @@
-// See gltf_check.h. The tables at the top follow the JSON schemas of glTF 2.0 and of the extensions that are
-// read.
+// Checks types, lengths and indices of a file. The tables at the top follow the JSON schemas of glTF 2.0
+// and of the extensions that are read.
 #include "gltf/check.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See gltf_container.h.
+// Reads a file and splits a .glb into its chunks.
 #include "gltf/container.h"
 
 #include <fmt/format.h>

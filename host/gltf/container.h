@@ -10,8 +10,8 @@ namespace whittle::gltf {
 
 std::string_view asText(std::span<const std::byte> bytes);
 
-/// The first `most` bytes of a regular file into `bytes`. Returns what is wrong with it, nothing if all is
-/// well.
+/// The first `most` bytes of a regular file into `bytes`. Returns what is wrong
+/// with it, nothing if all is well.
 std::optional<std::string> readStart(const std::filesystem::path& path, std::uint64_t most, Bytes& bytes);
 
 /// The JSON of Document::file, parsed but not checked; sets Document::binary. Throws InputError.

@@ -1,4 +1,4 @@
-// addDefaults of gltf_loader.h: a camera and lights for files that have none. Reads and writes the scene
+// addDefaults of loader.h: a camera and lights for files that have none. Reads and writes the scene
 // only.
 #include <algorithm>
 #include <array>

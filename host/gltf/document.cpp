@@ -1,4 +1,4 @@
-// See gltf_document.h. Versions, extensions, tinygltf, and buffers, which are read on first use.
+// Opens a file: versions, extensions, tinygltf, and buffers, which are read on first use.
 #include "gltf/document.h"
 
 #include <fmt/format.h>

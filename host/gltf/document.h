@@ -1,5 +1,5 @@
 // A glTF 2.0 file opened and checked: the description (JSON), tinygltf's typed view of it, and the buffers,
-// which are read on first use. Nothing of it leaves the gltf_*.cpp files. Follows the glTF 2.0 specification,
+// which are read on first use. Nothing of it leaves this folder. Follows the glTF 2.0 specification,
 // sections 3 and 4.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace whittle::gltf {
 using Json = nlohmann::json;
 using Bytes = std::vector<std::byte>;
 
-/// What every part of the loader reads. Indices stored in `json` and `model` are in range, see gltf_check.h.
+/// What every part of the loader reads. Indices stored in `json` and `model` are in range, see check.h.
 struct Document {
   Document() = default;
   Document(const Document&) = delete;

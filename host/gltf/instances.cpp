@@ -1,4 +1,4 @@
-// See gltf_instances.h.
+// Transforms of a mesh's copies: EXT_mesh_gpu_instancing, and the joints of a skin.
 #include "gltf/instances.h"
 
 #include <fmt/format.h>

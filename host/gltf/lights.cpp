@@ -1,5 +1,5 @@
-// See gltf_lights.h. Cameras: glTF 2.0, 3.10; lights: KHR_lights_punctual. Both look along the node's -Z, and
-// the node's scale changes neither.
+// Reads cameras and lights. Cameras: glTF 2.0, 3.10; lights: KHR_lights_punctual. Both look along the
+// node's -Z, and the node's scale changes neither.
 #include "gltf/lights.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,4 @@
-// See gltf_loader.h: glTF 2.0 in, Scene out. The order of the steps; each step has a file of its own
-// (gltf_*.h).
+// The order of the steps from a glTF file to a Scene; each step has a file of its own.
 #include "gltf/loader.h"
 
 #include <fmt/format.h>
@@ -117,8 +116,8 @@ class MeshLoader {
   std::size_t notDrawn_ = 0;
 };
 
-/// extras.whittle.background of the scene, [r, g, b]. Extras may hold anything, so other shapes are none of
-/// our business.
+/// extras.whittle.background of the scene, [r, g, b]. Extras may hold anything, so other
+/// shapes are none of our business.
 void readBackground(const Document& document, int sceneIndex, Scene& scene, Notices& notices) {
   if (sceneIndex < 0) return;
   static const Json::json_pointer kWhere("/extras/whittle/background");

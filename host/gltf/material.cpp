@@ -1,4 +1,4 @@
-// See gltf_material.h. Factors: glTF 2.0, 3.9 and the extensions' own texts.
+// Reads materials. Factors: glTF 2.0, 3.9 and the extensions' own texts.
 #include "gltf/material.h"
 
 #include <fmt/format.h>

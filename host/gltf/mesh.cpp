@@ -1,5 +1,5 @@
-// See gltf_mesh.h. Attributes and their formats: glTF 2.0, 3.7.2, and KHR_mesh_quantization; morph
-// targets: 3.7.2.2.
+// Reads mesh primitives. Attributes and their formats: glTF 2.0, 3.7.2, and
+// KHR_mesh_quantization; morph targets: 3.7.2.2.
 #include "gltf/mesh.h"
 
 #include <fmt/format.h>

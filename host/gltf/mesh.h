@@ -42,7 +42,7 @@ LocalMesh readPrimitive(Document& document, int mesh, int primitive, const Mater
 /// Appends a copy of vertex `v` and returns its index.
 std::uint32_t duplicateVertex(LocalMesh& mesh, std::uint32_t v);
 
-/// Tangents from the derivatives of the texture coordinates that `slot` reads (gltf_tangents.cpp).
+/// Tangents from the derivatives of the texture coordinates that `slot` reads (tangents.cpp).
 void generateTangents(LocalMesh& mesh, const TextureSlot& slot);
 
 }  // namespace whittle::gltf

@@ -1,4 +1,5 @@
-// See gltf_nodes.h. Every walk keeps its own stack: hierarchies as deep as the file has nodes are legal.
+// Walks the node hierarchy. Every walk keeps its own stack: hierarchies as deep
+// as the file has nodes are legal.
 #include "gltf/nodes.h"
 
 #include <fmt/format.h>
@@ -43,8 +44,8 @@ Parents findParents(const Document& document) {
   return parents;
 }
 
-/// Depth first from `roots`, children in file order. With one parent each no node is met twice below distinct
-/// roots.
+/// Depth first from `roots`, children in file order. With one parent each no node is
+/// met twice below distinct roots.
 template <class Visit>
 void walk(const std::vector<tinygltf::Node>& nodes, const std::vector<int>& roots, Visit visit) {
   std::vector<int> stack(roots.rbegin(), roots.rend());

@@ -1,5 +1,5 @@
-// The node hierarchy (glTF 2.0, 3.5): the chosen scene, the nodes it shows in depth-first order, global
-// transforms.
+// The node hierarchy (glTF 2.0, 3.5): the chosen scene, the nodes it shows in
+// depth-first order, global transforms.
 #pragma once
 
 #include <glm/glm.hpp>

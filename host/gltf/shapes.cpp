@@ -1,4 +1,5 @@
-// See gltf_shapes.h. The tables follow the JSON schemas of glTF 2.0 and of the extensions that are read.
+// The properties that are read. The tables follow the JSON schemas of glTF 2.0 and
+// of the extensions that are read.
 #include "gltf/shapes.h"
 
 #include <array>

@@ -33,8 +33,8 @@ TriangleFrame frameOf(const LocalMesh& mesh, const glm::uvec3& t, const TextureS
   const glm::dvec2 d2 = transformed(uv[t[2]], slot) - transformed(uv[t[0]], slot);
   const double determinant = d1.x * d2.y - d2.x * d1.y;
   if (determinant == 0.0 || !std::isfinite(determinant)) return {};
-  // Normal maps have +Y up, but v points down: an image seen the right way round has coordinates that run
-  // clockwise.
+  // Normal maps have +Y up, but v points down: an image seen the right way round has
+  // coordinates that run clockwise.
   return {unitOrZero((e1 * d2.y - e2 * d1.y) / determinant), determinant > 0.0};
 }
 
@@ -45,8 +45,8 @@ double angleAt(const LocalMesh& mesh, const glm::uvec3& t, int corner) {
   return std::acos(glm::clamp(glm::dot(a, b), -1.0, 1.0));
 }
 
-/// Gives each vertex one handedness: 0 none yet, 1 as seen, -1 mirrored. Triangles of the other kind get
-/// copies.
+/// Gives each vertex one handedness: 0 none yet, 1 as seen, -1 mirrored. Triangles
+/// of the other kind get copies.
 std::vector<int> splitByHandedness(LocalMesh& mesh, const std::vector<TriangleFrame>& frames) {
   std::vector<int> hand(mesh.positions.size(), 0);
   std::vector<std::uint32_t> twin(mesh.positions.size(), 0);  // 0: none; a copy never has index 0

@@ -1,4 +1,4 @@
-// See gltf_texture.h. Samplers: glTF 2.0, 3.8.4; transforms: KHR_texture_transform.
+// Reads texture slots and decodes images. Samplers: glTF 2.0, 3.8.4; transforms: KHR_texture_transform.
 #include "gltf/texture.h"
 
 #include <fmt/format.h>
@@ -19,8 +19,8 @@ Wrap wrapOf(int code) {
   return Wrap::Repeat;
 }
 
-/// The matrix T · R · S of KHR_texture_transform. Rotation is counter-clockwise as seen, with v pointing
-/// down.
+/// The matrix T · R · S of KHR_texture_transform. Rotation is counter-clockwise
+/// as seen, with v pointing down.
 std::array<float, 6> transformOf(const Json& t) {
   const auto pair = [&t](const char* key, double fallback) {
     const Json& v = child(t, key);

@@ -8,8 +8,8 @@
 
 namespace whittle::gltf {
 
-/// Fills Scene::images with what slots ask for. An image that cannot be used costs a warning and leaves its
-/// slots empty.
+/// Fills Scene::images with what slots ask for. An image that cannot be used costs a
+/// warning and leaves its slots empty.
 class TextureReader {
  public:
   TextureReader(Document& document, Scene& scene, Notices& notices);

@@ -1,4 +1,4 @@
-// See gltf_topology.h.
+// Indices, strips and fans to lists of triangles.
 #include "gltf/topology.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See gltf_uri.h.
+// URIs of buffers and images: base64, percent signs, files beside the scene.
 #include "gltf/uri.h"
 
 #include <array>

@@ -21,8 +21,8 @@ std::optional<std::vector<std::byte>> decodeDataUri(std::string_view uri);
 /// %41 to A. A percent sign without two hexadecimal digits stays as it is.
 std::string percentDecode(std::string_view text);
 
-/// The file that a relative URI means, below `folder`. The decoded name, or, if only that exists, the name as
-/// written.
+/// The file that a relative URI means, below `folder`. The decoded name, or, if only that
+/// exists, the name as written.
 std::filesystem::path resolveUri(const std::filesystem::path& folder, std::string_view uri);
 
 /// A git-lfs pointer, which stands in for a file that was never fetched.

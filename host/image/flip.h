@@ -11,8 +11,8 @@ namespace whittle {
 /// The paper's default viewer: 0.7 m from a 0.7 m wide screen of 3840 pixels.
 inline constexpr double kFlipPixelsPerDegree = 67.0;
 
-/// FLIP for each pixel, in [0, 1], of two sRGB pictures of width·height·3 bytes. Symmetric in its two
-/// pictures.
+/// FLIP for each pixel, in [0, 1], of two sRGB pictures of width·height·3 bytes.
+/// Symmetric in its two pictures.
 std::vector<double> flipMap(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int width,
                             int height);
 

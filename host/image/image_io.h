@@ -1,5 +1,5 @@
-// Image files in and out. The codec behind it (host/codec, the only user of OpenImageIO) is loaded when first
-// needed.
+// Image files in and out. The codec behind it (host/image/codec, the only user of OpenImageIO)
+// is loaded when first needed.
 #pragma once
 
 #include <cstddef>
@@ -26,13 +26,13 @@ struct FloatImage {
 /// std::runtime_error where its library is missing, as do all functions below that need it.
 void loadImageCodec();
 
-/// Decodes a PNG/JPEG/… held in memory (a texture inside a .glb) to 8-bit RGBA. Throws InputError naming
-/// `name`.
+/// Decodes a PNG/JPEG/… held in memory (a texture inside a .glb) to 8-bit RGBA.
+/// Throws InputError naming `name`.
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name);
 /// Reads an image file to 8-bit RGBA. Throws InputError.
 Image readImage(const std::filesystem::path& path);
-/// Reads .exr, .hdr, .png, … as linear floats (8/16-bit sRGB files are linearised), all channels up to four.
-/// Throws InputError.
+/// Reads .exr, .hdr, .png, … as linear floats (8/16-bit sRGB files are linearised), all channels
+/// up to four. Throws InputError.
 FloatImage readFloatImage(const std::filesystem::path& path);
 
 /// Key and value written into the file's metadata (EXR attributes, PNG text).
@@ -43,8 +43,8 @@ using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 /// an unknown extension or a folder that does not exist.
 void writeExr(const std::filesystem::path& path, const FloatImage& image, const ImageMetadata& metadata,
               const std::vector<std::string>& channelNames = {});
-/// Writes 8-bit RGB (width·height·3 bytes, already tone-mapped and sRGB-encoded) as .png or .jpg; same
-/// guarantees.
+/// Writes 8-bit RGB (width·height·3 bytes, already tone-mapped and sRGB-encoded) as
+/// .png or .jpg; same guarantees.
 void writeRgb8(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb,
                const ImageMetadata& metadata);
 /// Throws InputError unless `path` has an extension that can be written and its folder exists and is

@@ -7,8 +7,8 @@
 
 namespace whittle {
 
-/// All over the colour channels of all pixels, in double, in a fixed order: the same bits for any number of
-/// threads.
+/// All over the colour channels of all pixels, in double, in a fixed order: the same
+/// bits for any number of threads.
 struct ImageMetrics {
   double rmse = 0;    ///< sqrt of the mean of (x − r)²; not finite where a value of either picture is not
   double relMse = 0;  ///< mean of (x − r)²/(r² + 0.01)

@@ -1,5 +1,5 @@
-// See bsdf.h. Metallic-roughness after the glTF 2.0 specification, appendix B (GGX, height-correlated Smith,
-// Schlick); mirror directions after Whitted 1980.
+// Scattering in double precision. Metallic-roughness after the glTF 2.0 specification, appendix B (GGX,
+// height-correlated Smith, Schlick); mirror directions after Whitted 1980.
 #include "reference/bsdf.h"
 
 #include <algorithm>

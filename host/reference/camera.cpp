@@ -1,4 +1,4 @@
-// See camera.h.
+// Eye rays of perspective and orthographic cameras.
 #include "reference/camera.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// See fresnel.h.
+// Fresnel reflectance of dielectrics and metals in double precision.
 #include "reference/fresnel.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// See lights.h.
+// What each kind of light delivers at a point, in double precision.
 #include "reference/lights.h"
 
 #include <algorithm>

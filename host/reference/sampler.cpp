@@ -1,4 +1,4 @@
-// See sampler.h.
+// Sample positions in a pixel and random numbers, as README.md defines them.
 #include "reference/sampler.h"
 
 namespace whittle::reference {

@@ -1,4 +1,4 @@
-// See surfel.h.
+// A surfel out of a hit: position, normals, vertex attributes, material and textures.
 #include "reference/surfel.h"
 
 #include <algorithm>

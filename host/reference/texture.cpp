@@ -1,4 +1,4 @@
-// See texture.h.
+// Texture lookups in double precision: wrap modes, filters, sRGB.
 #include "reference/texture.h"
 
 #include <algorithm>

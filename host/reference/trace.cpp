@@ -1,4 +1,4 @@
-// See trace.h.
+// The recursion: Li and Lo of README.md, shadow rays, impulses.
 #include "reference/trace.h"
 
 #include <array>

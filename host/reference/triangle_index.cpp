@@ -1,5 +1,5 @@
-// See triangle_index.h. The build runs its two halves in parallel; which node gets which number may then
-// differ from run to run, but what a ray meets does not depend on it.
+// Builds and searches the reference's own tree. The build runs its two halves in parallel; which node gets
+// which number may then differ from run to run, but what a ray meets does not depend on it.
 #include "reference/triangle_index.h"
 
 #include <tbb/parallel_invoke.h>

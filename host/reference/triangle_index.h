@@ -1,6 +1,6 @@
-// Finds the triangles a ray meets: a small double-precision bounding volume hierarchy (binned surface area
-// heuristic, Wald 2007) and its twin that tries every triangle. Reads Scene's positions and triangles, and
-// nothing else.
+// Finds the triangles a ray meets: a small double-precision bounding volume hierarchy (binned surface
+// area heuristic, Wald 2007) and its twin that tries every triangle. Reads Scene's positions and
+// triangles, and nothing else.
 #pragma once
 
 #include <atomic>
@@ -51,8 +51,8 @@ class TriangleIndex {
   template <class Visit>
   void visitHitsBruteForce(const Ray& ray, double tMax, Visit visit) const;
 
-  /// Nearest hit, of equal distances the lowest triangle index. accept(hit) says whether a hit counts (alpha
-  /// masks).
+  /// Nearest hit, of equal distances the lowest triangle index. accept(hit) says
+  /// whether a hit counts (alpha masks).
   template <class Accept>
   std::optional<Hit> nearestHit(const Ray& ray, Accept accept) const;
   std::optional<Hit> nearestHit(const Ray& ray) const {

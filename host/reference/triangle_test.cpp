@@ -1,6 +1,6 @@
-// See triangle_test.h. Differences of products are Kahan's (two fma), whose sign is never wrong: Jeannerod,
-// Louvet, Muller, "Further analysis of Kahan's algorithm for the accurate computation of 2x2 determinants",
-// 2013.
+// The ray-triangle test in double precision. Differences of products are Kahan's (two fma), whose sign is
+// never wrong: Jeannerod, Louvet, Muller, "Further analysis of Kahan's algorithm for the accurate
+// computation of 2x2 determinants", 2013.
 #include "reference/triangle_test.h"
 
 #include <cmath>

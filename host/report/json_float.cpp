@@ -1,4 +1,4 @@
-// See json_float.h.
+// Floats as the shortest decimals that read back as the same float.
 #include "report/json_float.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-// P3, anti-aliasing: squares that shrink to less than a pixel at the horizon and a fan of bars thinner than a
+// Anti-aliasing: squares that shrink to less than a pixel at the horizon and a fan of bars thinner than a
 // pixel against the sky.
 #include "png.h"
 #include "scenes.h"

@@ -1,4 +1,4 @@
-// P1: a Cornell box, wider than tall so that it fills a 16:9 picture, with a mirror ball, a glass ball and a
+// A Cornell box, wider than tall so that it fills a 16:9 picture, with a mirror ball, a glass ball and a
 // tall block.
 #include "room.h"
 #include "scenes.h"

@@ -1,4 +1,4 @@
-// P3, mirror: a framed flat mirror and a mirror ball show the coloured balls in front of them a second time.
+// Mirror: a framed flat mirror and a mirror ball show the coloured balls in front of them a second time.
 #include "scenes.h"
 
 namespace generator {

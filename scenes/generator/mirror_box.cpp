@@ -1,4 +1,4 @@
-// P2: a Cornell-like box whose back and front walls are mirrors, turned a little against each other so that
+// A Cornell-like box whose back and front walls are mirrors, turned a little against each other so that
 // the row of pictures bends; every bounce adds one room.
 #include "room.h"
 #include "scenes.h"

@@ -1,4 +1,4 @@
-// P3, refraction: a glass ball turns what is behind it upside down, a thick slanting plate breaks the striped
+// Refraction: a glass ball turns what is behind it upside down, a thick slanting plate breaks the striped
 // poles behind it sideways, and in a wedge of green glass the light that crosses more of it comes out darker.
 #include "scenes.h"
 

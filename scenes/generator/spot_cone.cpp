@@ -1,4 +1,4 @@
-// P3, spot cone: a stage. A soft-edged spot lights the pedestal; two hard-edged ones (inner = outer angle)
+// Spot cone: a stage. A soft-edged spot lights the pedestal; two hard-edged ones (inner = outer angle)
 // draw discs on the wall.
 #include "scenes.h"
 

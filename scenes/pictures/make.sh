@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Renders every picture of this folder from the scenes beside it: P1 (cornell_box), P2 (mirror_box at 1, 2 and 7 bounces),
-# P3 (one for each illumination term). Usage: scenes/pictures/make.sh [WHITTLE], default build/release/whittle.
+# Renders every picture of this folder from the scenes in the folder above.
+# Usage: scenes/pictures/make.sh [WHITTLE], default build/release/whittle.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 whittle=${1:-$here/../../build/release/whittle}

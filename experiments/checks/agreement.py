@@ -7,7 +7,7 @@ than 1e-3 of the mean), their number, the pixels that see another triangle, thos
 (beyond 1e-4; not so on the edge that two triangles share, or where two surfaces lie in one plane), and both counts of
 rays.
 
-usage: experiments/agreement.py [--whittle FILE] [--width N] [--height N] [SCENE.glb ...]   (default: scenes/*.glb)
+usage: experiments/run agreement [-- [--width N] [--height N] [SCENE.glb ...]]   (default: scenes/*.glb)
 needs: Debian's python3-numpy and python3-openimageio; /usr/bin/python3
 """
 import argparse
@@ -19,7 +19,7 @@ import tempfile
 import numpy
 import OpenImageIO
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def pixels(file):
@@ -43,7 +43,10 @@ def compare(kernel, reference):
         elsewhere = ~same & ~(abs(a_depth - b_depth) <= 1e-4 * abs(b_depth))
     mean = b.mean()
     outlier = (abs(a - b).max(axis=-1) > 1e-3 * mean) & same
-    rmse = lambda chosen: numpy.sqrt(((a - b)[chosen] ** 2).mean()) / mean
+
+    def rmse(chosen):
+        return numpy.sqrt(((a - b)[chosen] ** 2).mean()) / mean
+
     return (f"{rmse(same):.2e}\t{rmse(same & ~outlier):.2e}\t{outlier.sum()}\t{(~same).sum()}\t{elsewhere.sum()}\t"
             f"{same.size}\t{a_rays['total']}\t{b_rays['total']}")
 

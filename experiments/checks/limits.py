@@ -5,7 +5,7 @@ RMSE over the mean radiance (a brighter picture is divided by its factor first),
 the same triangles (where the scene is moved: the floats of its file move, too), samples that were not finite, triangles
 that were dropped, rays over the rays of the first picture, seconds of rendering, the first warning or the error.
 
-usage: experiments/limits.py [--whittle FILE] [--sweep NAME]...   (default: all of them)
+usage: experiments/run limits [-- --sweep NAME ...]   (default: all of them)
 needs: Debian's python3-numpy and python3-openimageio; /usr/bin/python3
 """
 import argparse
@@ -18,7 +18,7 @@ import tempfile
 import numpy
 import OpenImageIO
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = ROOT / "scenes" / "cornell_box.glb"
 POWERS = {"scale": [-20, -19, -18, -17, -16, -15, -12, -9, -6, -3, 3, 6, 9, 12, 15, 16, 17, 18, 19],
           "distance": range(0, 7), "intensity": [-44, -42, -40, -38, -36, -34, -30, -20, 20, 30, 34, 36, 37, 38, 39],

@@ -2,8 +2,7 @@
 """Does leaving out what a scene does not need change a picture? Every scene there is, ours and shared ones, as it is
 against everything compiled in: pixels in which the two differ (there must be none).
 
-writes: data/same_bits.tsv beside this script (--out FOLDER: in FOLDER/data)
-usage: experiments/same_bits.py [--whittle FILE] [--out FOLDER] [SCENE ...]
+usage: experiments/run same_bits [-- SCENE ...]   exit status: 1 where any pixel differs, or a scene is refused
 """
 import argparse
 import json
@@ -12,8 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 SHARED = ROOT.parent / "shared" / "scenes"
 PICTURE = ["--width", "96", "--height", "54", "--bounces", "6", "--quiet"]
 
@@ -41,19 +39,17 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("scenes", nargs="*", type=pathlib.Path)
     parser.add_argument("--whittle", type=pathlib.Path, default=ROOT / "build" / "release" / "whittle")
-    parser.add_argument("--out", type=pathlib.Path, default=HERE)
     a = parser.parse_args()
-    (a.out / "data").mkdir(parents=True, exist_ok=True)
     different = 0
-    with tempfile.TemporaryDirectory() as folder, open(a.out / "data" / "same_bits.tsv", "w") as out:
-        out.write("scene\tdiffering_pixels\n")
+    print("scene", "differing_pixels", sep="\t")
+    with tempfile.TemporaryDirectory() as folder:
         for scene in a.scenes or scenes():
             count = pixelsThatDiffer(a.whittle, scene, pathlib.Path(folder))
             different += count != 0
-            out.write(f"{scene.name}\t{count}\n")
-            out.flush()
+            print(scene.name, count, sep="\t", flush=True)
             print(f"{scene.name:48} {count}", file=sys.stderr)
-    sys.exit(1 if different else 0)
+    if different:
+        sys.exit(f"same_bits: {different} scenes differ or are refused")
 
 
 if __name__ == "__main__":

@@ -1,13 +1,11 @@
-#!/usr/bin/python3
 """E10: Which of the numerical cases come out right, and by how much?
 
 Runs the tests that record rows (tests/stability/record.h) and writes the page stability.md: for each check of a case
-its construction, what was expected and why, what came out, the error and its limit. Cases that take minutes run whole.
+its construction, what was expected and why, what came out, the error and its limit. Cases that take minutes run whole,
+but with --quick: then test_stability alone, long cases as short as in the suite.
 
-usage: experiments/e10_stability.py [--build FOLDER] [--out FILE] [--quick]
-       (default: build/release, stability.md here)
+Writes e10_stability.tsv (a row for each check), and stability.md in the folder above.
 """
-import argparse
 import json
 import os
 import pathlib
@@ -19,7 +17,6 @@ import tempfile
 from lib import table
 from lib.context import RunFailed, Skipped
 
-HERE = pathlib.Path(__file__).resolve().parent
 COLUMNS = ["case", "construction", "expectation", "result", "error", "unit", "limit", "verdict"]
 TESTS = {
     "test_stability": "*",
@@ -29,7 +26,7 @@ TESTS = {
 }
 INTRODUCTION = """# Numerical cases
 
-Written by `experiments/e10_stability.py`; not edited by hand. Each row is a check of a test: 1 to 35 are the numbered
+Written by `experiments/run e10`; not edited by hand. Each row is a check of a test: 1 to 35 are the numbered
 cases, O1 and on are our own. Expected values are formulas or double precision, computed in the test. A row passes if
 the error is at most the limit; *known limit* marks what is measured and not promised. All forms: one ray and packets,
 array and tree, with the same bits.
@@ -96,7 +93,6 @@ def page(rows):
 
 
 def measure(context):
-    """For experiments/run: the rows as a table."""
     tests = pathlib.Path(context.whittle).parent / "tests"
     if lack := lacking(tests, not context.quick):
         raise Skipped(lack)
@@ -107,26 +103,7 @@ def measure(context):
 
 
 def plot(folder):
-    """For experiments/run: the page from the table. Cells stay text."""
-    rows = [dict(zip(COLUMNS, row)) for row in table.lines(pathlib.Path(folder) / "data", "e10_stability")[1]]
-    (pathlib.Path(folder) / "stability.md").write_text(page(rows))
+    """The page from the table. Cells stay text."""
+    rows = [dict(zip(COLUMNS, row)) for row in table.lines(folder, "e10_stability")[1]]
+    (folder.parent / "stability.md").write_text(page(rows))
 
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=HERE.parent / "build" / "release")
-    parser.add_argument("--out", type=pathlib.Path, default=HERE / "stability.md")
-    parser.add_argument("--quick", action="store_true",
-                        help="test_stability alone, long cases as short as in the suite")
-    options = parser.parse_args()
-    tests, whole = options.build / "tests", not options.quick
-    if lack := lacking(tests, whole):
-        print(f"e10_stability.py: {lack}", file=sys.stderr)
-        sys.exit(2)
-    rows = collect(tests, whole)
-    options.out.write_text(page(rows))
-    sys.exit(any(r["verdict"] == "FAIL" for r in rows))
-
-
-if __name__ == "__main__":
-    main()

@@ -12,6 +12,7 @@ import functools
 import json
 import subprocess
 
+from e11_specialisation import figures
 from lib import table
 from lib.context import SCENES, RunFailed, size
 from lib.measure import interleaved
@@ -125,7 +126,5 @@ def measure(context):
 
 
 def plot(folder):
-    from lib import e11_figures
-    data = folder / "data"
     names = ("e11_frames", "e11_compile", "e11_pictures", "e11_features")
-    e11_figures.draw(folder, *(table.read(data, name) for name in names))
+    figures.draw(folder, *(table.read(folder, name) for name in names))

@@ -5,8 +5,7 @@ the centre of each pixel, eight bounces, all threads, 1280x720, runs in turn. Th
 that the work is the same: same triangles seen, same shadows, same mirror images. Queries: `whittle bench`, which
 times Embree on the same rays.
 
-writes: data/e12_frames.tsv (a row for each run), data/e12_pictures.tsv, data/e12_queries.tsv;
-        figures/e12_frames, e12_queries, e12_pictures_SCENE
+writes: e12_frames.tsv (a row for each run), e12_pictures.tsv, e12_queries.tsv; figures e12_frames, e12_queries, e12_pictures_SCENE
 needs: povray and blender (Debian's packages) for whole frames, python3-openimageio for the pictures; what is not
        there is left out
 """
@@ -175,10 +174,10 @@ def drawPairs(axis, found, which):
 
 
 def plotFrames(folder):
-    found = pairs(table.read(folder / "data", "e12_frames"))
+    found = pairs(table.read(folder, "e12_frames"))
     if not found:
         return
-    row = table.read(folder / "data", "e12_frames")[0]
+    row = table.read(folder, "e12_frames")[0]
     figure, axes = style.figure(1, 2, height=1.6 + 0.42 * len(found), sharey=True, width_ratios=[1.15, 1])
     for axis, which, title in zip(axes, (0, 1), ("Rays alone, as each program times them", "The whole process")):
         drawPairs(axis, found, which)
@@ -196,11 +195,11 @@ def plotFrames(folder):
 
 
 def plotQueries(folder):
-    rows = table.read(folder / "data", "e12_queries")
+    rows = table.read(folder, "e12_queries")
     kinds = list(dict.fromkeys(r["rays"] for r in rows))
     names = list(dict.fromkeys(r["scene"] for r in rows))
     figure, axes = style.figure(1, 2, height=4.4, sharey=True, sharex=True)
-    threads = style.threadsText(table.readMachine(folder / "data", "e12_queries")["cpu"]["threads"])
+    threads = style.threadsText(table.readMachine(folder, "e12_queries")["cpu"]["threads"])
     for axis, query in zip(axes, ("nearest", "any")):
         for i, name in enumerate(names):
             chosen = [r for r in rows if r["scene"] == name and r["query"] == query]
@@ -222,5 +221,5 @@ def plotQueries(folder):
 
 def plot(folder):
     plotQueries(folder)
-    if (folder / "data" / "e12_frames.tsv").exists():
+    if (folder / "e12_frames.tsv").exists():
         plotFrames(folder)

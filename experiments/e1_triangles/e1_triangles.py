@@ -164,6 +164,6 @@ def plotBuild(rows, folder):
 
 
 def plot(folder):
-    rows = table.read(folder / "data", "e1_triangles")
+    rows = table.read(folder, "e1_triangles")
     plotTimes(rows, folder)
     plotBuild(rows, folder)

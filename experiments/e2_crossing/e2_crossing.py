@@ -13,9 +13,10 @@ import statistics
 
 import numpy
 
-from lib import strip, style, table
+from e2_crossing import strip
+from lib import stages, style, table
 from lib.context import SCENES, RunFailed, size
-from lib.measure import interleaved, stage
+from lib.measure import interleaved
 
 COLUMNS = ["triangles", "seed", "search", "threads", "repetition", "render", "searches", "usedTree"]
 FULL = [1, 2, 3, 4, 6, 8, 10, 12, 14, 16, 20, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1000]
@@ -38,7 +39,7 @@ def measureCount(context, triangles, seed, out):
     runs += interleaved(variants(context, scene), context.pick(2, 4))
     for (search, threads), repetition, s in runs:
         timed = {} if search == "auto" else {"render": s["time"]["render"],
-                                             "searches": stage(s, "intersect", "occlude")}
+                                             "searches": stages.searchSeconds(s)}
         out.row(triangles=triangles, seed=seed, search=search, threads=threads, repetition=repetition,
                 usedTree=int("tree search" in s["features"]["used"]), **timed)
 
@@ -163,7 +164,7 @@ def plotPanel(axis, rows, threads, automatic):
 
 
 def plot(folder):
-    rows = table.read(folder / "data", "e2_crossing")
+    rows = table.read(folder, "e2_crossing")
     threads = sorted({r["threads"] for r in rows if r["search"] != "auto"})
     figure, axes = style.figure(rows=len(threads), height=3.4 * len(threads), sharex=True, squeeze=False)
     labels = [plotPanel(axis, rows, number, autoThreshold(rows)) for axis, number in zip(axes[:, 0], threads)]

@@ -84,7 +84,7 @@ def statement(bends):
 
 
 def plot(folder):
-    rows, machine = table.read(folder / "data", "e3_cache"), table.readMachine(folder / "data", "e3_cache")
+    rows, machine = table.read(folder, "e3_cache"), table.readMachine(folder, "e3_cache")
     figure, axis = style.figure(height=5.6)
     axis.set(xscale="log", xlabel="tree and triangles of the scene, bytes", ylabel="time of a ray, ns (1 thread)")
     labels, bends = style.EndLabels(axis), {}

@@ -48,6 +48,7 @@ def measure(context):
         progress.step(name)
 
 
+FORMERLY = {"wideNodes": "bvh8Nodes", "twoWideNodes": "bvh2Nodes"}  # columns of tables of older runs
 LINES = [("tree", "tree of the searches:\neight-wide nodes, leaves"), ("triangle_bytes", "triangle records"),
          ("bvh8Nodes", "eight-wide nodes alone"), ("bvh2Nodes", "two-wide nodes\n(GPUs use these)")]
 
@@ -72,7 +73,7 @@ def others(axis, rows, i, column):
 
 
 def plot(folder):
-    rows = table.read(folder / "data", "e4_memory")
+    rows = table.read(folder, "e4_memory", formerly=FORMERLY)
     figure, (top, bottom) = style.figure(rows=2, height=7.6, sharex=True, height_ratios=[1.3, 1])
     above, below = style.EndLabels(top), style.EndLabels(bottom)
     fields = [r for r in rows if r["kind"] == "height field"]

@@ -4,15 +4,16 @@ Held constant: scene, picture, bounces, wavefront, work-group; only --threads ch
 counts in turn within each run, every kernel compiled beforehand. Speed-up is held against what the machine itself gives
 to as many threads (lib/ceilings.cpp): a virtual processor may be half a core, and memory is shared.
 The tree is built by `whittle bench`, where nothing is compiled beside it.
-Writes data/e5_ceilings.tsv (rates), e5_frames.tsv (seconds of each run), e5_stages.tsv (by stage),
-e5_launches.tsv (each launch, medians, one thread against as many as processors), e5_build.tsv; figures/e5_speedup,
+Writes e5_ceilings.tsv (rates), e5_frames.tsv (seconds of each run), e5_stages.tsv (by stage),
+e5_launches.tsv (each launch, medians, one thread against as many as processors), e5_build.tsv; figures e5_speedup,
 e5_model, e5_losses.
 """
 import functools
 import json
 import statistics
 
-from lib import ceilings, fit, measure as repeat, stages, table
+from e5_threads import analysis, figures
+from lib import ceilings, measure as repeat, stages
 from lib.context import ROOT, size
 
 # (name in the tables and figures, how to come by it); Sponza is left out where it is not there
@@ -60,8 +61,8 @@ def measureFrames(context, counts, runs):
     frames = context.table("e5_frames", ["scene", "triangles", "width", "height", "threads", "run", "load_s",
                                          "render_s", "device_s"])
     byStage = context.table("e5_stages", ["scene", "threads", "run", "stage", "launches", "seconds"])
-    launches = context.table("e5_launches", ["scene", "stage", "bounce", "items", "groups", "one_thread_s",
-                                             "all_processors_s"])
+    launches = context.table("e5_launches", ["scene", "stage", "program", "bounce", "items", "groups",
+                                             "one_thread_s", "all_processors_s"])
     progress = context.progress("e5", len(context.pick(SCENES[:3], SCENES)) * len(counts) * runs)
     for name, file in scenes(context):
         single = {1: [], context.threads: []}  # launches, run by run
@@ -77,15 +78,16 @@ def measureFrames(context, counts, runs):
             if threads in single:
                 single[threads].append(records)
             progress.step(f"{name}, {threads} threads")
-        writeLaunches(launches, name, stages.WorkGroups(ROOT, stats), single[1], single[context.threads])
+        writeLaunches(launches, name, stats, single[1], single[context.threads])
 
 
-def writeLaunches(out, scene, groups, one, every):
+def writeLaunches(out, scene, stats, one, every):
     """The same launches in every run, whatever the number of threads: medians over the runs."""
+    groups, facts = stages.WorkGroups(ROOT, stats), {s["name"]: s for s in stats["stages"]}
     for i, (kernel, bounce, items, _) in enumerate(one[0]):
         seconds = [statistics.median(run[i][3] for run in runs) for runs in (one, every)]
-        out.row(scene=scene, stage=stages.stageOf(kernel), bounce=bounce, items=items,
-                groups=groups.count(kernel, items), one_thread_s=seconds[0], all_processors_s=seconds[1])
+        out.row(scene=scene, stage=stages.jobOf(facts[kernel]), program=stages.programOf(facts[kernel]), bounce=bounce,
+                items=items, groups=groups.count(kernel, items), one_thread_s=seconds[0], all_processors_s=seconds[1])
 
 
 def measureBuild(context, counts, runs):
@@ -98,76 +100,5 @@ def measureBuild(context, counts, runs):
             out.row(scene=name, triangles=r["triangles"], threads=threads, run=run, build_s=r["build"]["seconds"])
 
 
-# What the figures show of it.
-
-
-class Measured:
-    """The tables, and what the machine gives to n threads in multiples of one thread's rate."""
-
-    def __init__(self, folder):
-        data = folder / "data"
-        self.frames, self.byStage, self.launches, self.build, rates = (
-            table.read(data, f"e5_{name}") for name in ("frames", "stages", "launches", "build", "ceilings"))
-        self.cpu = table.readMachine(data, "e5_frames")["cpu"]
-        self.processors = self.cpu["threads"]
-        self.rates = {kind: ceilings.medians(rates, kind) for kind in ("integer", "fma", "triad")}
-        self.counts = sorted(self.rates["fma"])
-        self.scenes = list(dict.fromkeys(r["scene"] for r in self.frames))
-
-    def ceiling(self, kind):
-        return {n: rate / self.rates[kind][1] for n, rate in self.rates[kind].items()}
-
-    def running(self):
-        """c(n) for the models and the losses: arithmetic on whole vectors, as the kernels do, on as many threads as
-        there are processors at most; above that c stays."""
-        ceiling = self.ceiling("fma")
-        return {n: ceiling[min(n, self.processors)] for n in self.counts}
-
-    def picture(self):
-        return f"{self.frames[0]['width']}×{self.frames[0]['height']}"
-
-
-def speedUps(rows, column, **chosen):
-    """Threads, speed-ups of medians, and of the quartiles."""
-    threads, middle, low, high = repeat.curve(rows, "threads", column, **chosen)
-    return threads, *([middle[0] / v for v in values] for values in (middle, high, low))
-
-
-def fits(measured):
-    """{scene: (Amdahl's law on up to as many threads as processors, Gunther's on all)}"""
-    c = measured.running()
-    result = {}
-    for scene in measured.scenes:
-        rows = [r for r in measured.frames if r["scene"] == scene]
-        few = [r for r in rows if r["threads"] <= measured.processors]
-        result[scene] = (fit.amdahl([c[r["threads"]] for r in few], [1 / r["render_s"] for r in few]),
-                         fit.uslShared([r["threads"] for r in rows], [c[r["threads"]] for r in rows],
-                                       [1 / r["render_s"] for r in rows]))
-    return result
-
-
-PARTS = {"ideal": "one thread's frame, shared evenly", "machine": "the machine's own ceiling", "host": "host, serial",
-         "searches": "searches", "packing": "packing the queues", "streams": "other kernels"}
-
-
-def losses(measured, scene):
-    """{part: seconds} of the frame on all processors: what it would take shared evenly, and what comes on top. The
-    parts sum up to the frame, but for medians of sums and sums of medians."""
-    limit = measured.running()[measured.processors]
-    times = repeat.grouped([r for r in measured.frames if r["scene"] == scene], ["threads"], "render_s")
-    one, every = (statistics.median(times[(n,)]) for n in (1, measured.processors))
-    launches = [r for r in measured.launches if r["scene"] == scene]
-    device = [sum(r[column] for r in launches) for column in ("one_thread_s", "all_processors_s")]
-    parts = dict.fromkeys(PARTS, 0.0)
-    parts["ideal"] = one / measured.processors
-    parts["machine"] = device[0] * (1 / limit - 1 / measured.processors)
-    parts["host"] = (every - device[1]) - (one - device[0]) / measured.processors
-    for r in launches:
-        part = "searches" if r["stage"] in stages.SEARCHES else "packing" if r["stage"] == "compact" else "streams"
-        parts[part] += r["all_processors_s"] - r["one_thread_s"] / limit
-    return parts
-
-
 def plot(folder):
-    from lib import e5_figures
-    e5_figures.draw(Measured(folder), folder)
+    figures.draw(analysis.Measured(folder), folder)

@@ -1,10 +1,8 @@
 """Figures of E5 (e5_threads.py): speed-up by threads, models of it, and where the rest goes."""
 import numpy
 
-import e5_threads as e5
+from e5_threads import analysis as e5
 from lib import ceilings, dots, fit, stages, style
-
-STAGES = [s for s in stages.ORDER if s != "host"]
 
 
 def draw(measured, folder):
@@ -78,13 +76,13 @@ def efficiency(axis, measured, looks):
 
 
 def byStage(axis, measured, looks):
-    values = {}
+    values, jobs = {}, stages.order(measured.byStage)[:-1]
     for scene in looks:
         values[scene] = {"whole frame": on(measured, measured.frames, "render_s", scene=scene)}
-        for stage in STAGES:
+        for stage in jobs:
             if any(r["stage"] == stage and r["scene"] == scene for r in measured.byStage):
                 values[scene][stage] = on(measured, measured.byStage, "seconds", scene=scene, stage=stage)
-    rows = ["whole frame", *STAGES]
+    rows = ["whole frame", *jobs]
     dots.draw(axis, rows, values, looks)
     marks = {"1": 1.0, "memory": measured.ceiling("triad")[measured.processors],
              "arithmetic": measured.ceiling("fma")[measured.processors]}
@@ -172,10 +170,10 @@ def share(parts):
 
 def launches(axis, measured):
     """Each launch: how much faster on all processors, by how many work-groups it has."""
-    kinds = {"searches": stages.SEARCHES, "raygen, shade": ("raygen", "shade"),
-             "compact": ("compact",), "accumulate, film": ("accumulate", "film")}
-    for i, (name, of) in enumerate(kinds.items()):
-        rows = [r for r in measured.launches if r["stage"] in of and r["all_processors_s"] > 0]
+    kinds = {"searches": stages.isSearch, "raygen, shade": lambda r: r["stage"] in ("raygen", "shade"),
+             "compact": lambda r: r["stage"] == "compact", "accumulate, film": lambda r: r["stage"] in ("accumulate", "film")}
+    for i, (name, isOne) in enumerate(kinds.items()):
+        rows = [r for r in measured.launches if isOne(r) and r["all_processors_s"] > 0]
         axis.plot([r["groups"] for r in rows], [r["one_thread_s"] / r["all_processors_s"] for r in rows], label=name,
                   **{**style.look(i), "linestyle": "none", "markersize": 4, "alpha": 0.7})
     axis.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=2, frameon=False, fontsize=8.5, borderpad=0,

@@ -4,11 +4,12 @@ Held constant: scene, picture, bounces, all threads; one size changes in each sw
 Every size of a work-group is another kernel to PoCL: each is compiled beforehand, in a run that does not count.
 What a launch costs is the slope of the frame's time against its launches, in small wavefronts on one thread: work is
 the same, and no thread can go without any.
-Writes data/e6_frames.tsv and e6_stages.tsv (each run of each sweep); figures/e6_work_groups, e6_wavefronts,
+Writes e6_frames.tsv and e6_stages.tsv (each run of each sweep); figures e6_work_groups, e6_wavefronts,
 e6_launches.
 """
 import functools
 
+from e6_sizes import figures
 from lib import measure as repeat, stages
 from lib.context import ROOT, size
 
@@ -66,5 +67,4 @@ def writeRun(frames, byStage, key, stats):
 
 
 def plot(folder):
-    from lib import e6_figures
-    e6_figures.draw(folder)
+    figures.draw(folder)

@@ -10,8 +10,8 @@ SHARE = 0.03  # stages below this share of the frame are not drawn: their times 
 
 
 def draw(folder):
-    frames, byStage = (table.read(folder / "data", f"e6_{name}") for name in ("frames", "stages"))
-    threads = table.readMachine(folder / "data", "e6_frames")["cpu"]["threads"]
+    frames, byStage = (table.read(folder, f"e6_{name}") for name in ("frames", "stages"))
+    threads = table.readMachine(folder, "e6_frames")["cpu"]["threads"]
     scenes = list(dict.fromkeys(r["scene"] for r in frames))
     sweep(frames, byStage, scenes, "workGroup", f"work items of a group ({threads} threads)", folder, "e6_work_groups")
     sweep(frames, byStage, scenes, "wavefront", f"rays of a wavefront ({threads} threads)", folder, "e6_wavefronts")
@@ -41,7 +41,7 @@ def curves(frames, byStage, scene, name):
         return sizes, [1.0 if n == usual else time / default for n, time in zip(sizes, times)]
 
     frame = median(frames, "render_s", **key, size="default")
-    drawn = [s for s in stages.ORDER
+    drawn = [s for s in stages.order(byStage)[:-1]
              if (median(byStage, "seconds", **key, stage=s, size="default") or 0) >= SHARE * frame]
     return {"whole frame": ratios(frames, "render_s"), **{s: ratios(byStage, "seconds", stage=s) for s in drawn}}
 

@@ -98,8 +98,8 @@ def plotSweep(above, below, rows, sweep, looks):
 
 
 def plot(folder):
-    rows = table.read(folder / "data", "e7_linearity")
-    threads = style.threadsText(table.readMachine(folder / "data", "e7_linearity")["cpu"]["threads"])
+    rows = table.read(folder, "e7_linearity")
+    threads = style.threadsText(table.readMachine(folder, "e7_linearity")["cpu"]["threads"])
     names = list(dict.fromkeys(r["scene"] for r in rows))
     looks = {name: i for i, name in enumerate(names)}
     for sweep in SWEEPS:

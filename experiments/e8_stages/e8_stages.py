@@ -3,19 +3,19 @@
 Held constant: picture, all threads, the program's own choices; scenes in turn within each run, every kernel compiled
 beforehand. Bytes are those of the queue planes that a launch reads and writes, as the statistics estimate them; they
 are compared with what a STREAM triad moves on as many threads (lib/ceilings.cpp).
-Writes data/e8_stages.tsv (each run; bounce 0: the whole frame, -1: outside the bounces), e8_ceilings.tsv;
-figures/e8_profile, e8_bounces, e8_rates.
+Writes e8_stages.tsv (each run; bounce 0: the whole frame, -1: outside the bounces), e8_ceilings.tsv;
+figures e8_profile, e8_bounces, e8_rates.
 """
 import functools
 
+from e8_stages import figures
 from lib import ceilings, measure as repeat, stages
 from lib.context import ROOT, size
 
 OWN = ["cornell_box", "mirror_box", "nested_glass", "refraction", "textured"]
 SHARED = {"Sponza": "bench/crytek-sponza/crytek-sponza.glb", "coffee maker": "bench/coffee/coffee.glb",
           "kitchen": "bench/kitchen/kitchen.glb", "teapot": "bench/teapot-full/teapot-full.glb"}
-COLUMNS = ["scene", "triangles", "rays", "run", "render_s", "bounce", "stage", "launches", "seconds", "items", "bytes"]
-WHOLE, OUTSIDE = 0, -1
+COLUMNS = ["scene", "triangles", "rays", "run", "render_s", "bounce", "stage", "program", "launches", "seconds", "items", "bytes"]
 
 
 def scenes(context):
@@ -42,17 +42,16 @@ def measure(context):
     for name, run, stats in repeat.interleaved(variants, runs):
         key = dict(scene=name, triangles=stats["scene"]["triangles"], rays=stats["rays"]["total"], run=run,
                    render_s=stats["time"]["render"])
-        writeStages(out, {**key, "bounce": WHOLE}, stages.grouped(stats["stages"]))
+        writeStages(out, {**key, "bounce": stages.WHOLE}, stages.grouped(stats["stages"]))
         for bounce, sums in stages.byBounce(stats).items():
-            writeStages(out, {**key, "bounce": bounce or OUTSIDE}, sums)
+            writeStages(out, {**key, "bounce": bounce or stages.OUTSIDE}, sums)
         progress.step(name)
 
 
 def writeStages(out, key, sums):
     for stage, s in sums.items():
-        out.row(**key, stage=stage, launches=s["launches"], seconds=s["seconds"], items=s["items"], bytes=s["bytes"])
+        out.row(**key, stage=stage, **s)
 
 
 def plot(folder):
-    from lib import e8_figures
-    e8_figures.draw(folder)
+    figures.draw(folder)

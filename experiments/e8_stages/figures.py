@@ -5,14 +5,14 @@ from matplotlib.patches import Patch
 
 from lib import ceilings, measure as repeat, stages, style, table
 
-WHOLE, OUTSIDE = 0, -1  # as e8_stages writes them
 LOOKS = {"raygen": (style.SKY, "//"), "intersect": (style.BLUE, ""), "shade": (style.ORANGE, ".."),
          "compact": (style.BLACK, ""), "occlude": (style.GREEN, "\\\\"), "accumulate": (style.PURPLE, "xx"),
          "film": (style.YELLOW, "--"), "host": ("#dddddd", "")}
+OTHER = (style.GREY, "++")  # a stage without a look of its own
 
 
 def draw(folder):
-    rows = table.read(folder / "data", "e8_stages")
+    rows = table.read(folder, "e8_stages")
     profile(rows, folder)
     bounces(rows, folder)
     rates(rows, folder)
@@ -30,24 +30,26 @@ def frame(rows, scene):
 
 def whole(rows, scene):
     """{stage: seconds}, the host's last: the frame without its launches."""
-    spent = seconds(rows, scene, WHOLE)
+    spent = seconds(rows, scene, stages.WHOLE)
     return {**spent, "host": max(frame(rows, scene) - sum(spent.values()), 0)}
 
 
 def scenesBySearch(rows):
     """Scenes by the searches' share, the largest last (on top)."""
+    searches = {r["stage"] for r in rows if stages.isSearch(r)}
+
     def share(scene):
         spent = whole(rows, scene)
-        return sum(spent.get(s, 0) for s in stages.SEARCHES) / sum(spent.values())
+        return sum(spent.get(s, 0) for s in searches) / sum(spent.values())
     return sorted(dict.fromkeys(r["scene"] for r in rows), key=share)
 
 
-def bar(axis, y, spent, scale, least):
-    """One stacked bar; a number in each part that has room for it."""
+def bar(axis, y, jobs, spent, scale, least):
+    """One stacked bar of these jobs; a number in each part that has room for it."""
     left, centres = 0.0, {}
-    for stage in stages.ORDER:
+    for stage in jobs:
         width = spent.get(stage, 0) * scale
-        colour, hatch = LOOKS[stage]
+        colour, hatch = LOOKS.get(stage, OTHER)
         axis.barh(y, width, left=left, height=0.72, color=colour, hatch=hatch, edgecolor="white", linewidth=0.5)
         centres[stage] = left + width / 2
         if width >= least:
@@ -58,8 +60,8 @@ def bar(axis, y, spent, scale, least):
 
 
 def nameParts(axis, centres, y, size=8.5):
-    """The stages' names over the bar at y, each joined with its part."""
-    names = [s for s in stages.ORDER if s in centres]
+    """The jobs' names over the bar at y, each joined with its part."""
+    names = list(centres)
     axis.figure.canvas.draw()
     pixels = [axis.transData.transform((centres[s], y))[0] for s in names]
     placed = style.spread(pixels, [size * 0.9 * (len(s) + 1) * axis.figure.dpi / 100 for s in names])
@@ -78,7 +80,7 @@ def profile(rows, folder):
     for y, scene in enumerate(scenes):
         spent = whole(rows, scene)
         total = sum(spent.values())
-        centres = bar(axis, y, spent, 100 / total, 4)
+        centres = bar(axis, y, stages.order(rows), spent, 100 / total, 4)
         rays = next(r["rays"] for r in rows if r["scene"] == scene)
         axis.text(101, y, f"{1e3 * total:.0f} ms, {rays / total / 1e6:.1f} Mrays/s", va="center", fontsize=8.5)
     axis.set_yticks(range(len(scenes)), [label(rows, s) for s in scenes])
@@ -87,7 +89,7 @@ def profile(rows, folder):
     axis.spines["bottom"].set_bounds(0, 100)
     axis.set_ylim(-0.6, len(scenes) - 0.4)
     axis.grid(axis="y", visible=False)
-    threads = table.readMachine(folder / "data", "e8_stages")["cpu"]["threads"]
+    threads = table.readMachine(folder, "e8_stages")["cpu"]["threads"]
     axis.set_xlabel(f"share of the frame, % ({threads} threads)")
     nameParts(axis, centres, len(scenes) - 1)
     style.save(figure, folder, "e8_profile")
@@ -106,7 +108,7 @@ def bounces(rows, folder):
         return
     columns = min(2, len(scenes))
     lines = -(-len(scenes) // columns)
-    threads = style.threadsText(table.readMachine(folder / "data", "e8_stages")["cpu"]["threads"])
+    threads = style.threadsText(table.readMachine(folder, "e8_stages")["cpu"]["threads"])
     figure, axes = style.figure(lines, columns, height=2.9 * lines + 0.6, squeeze=False)
     for axis in axes.flat[len(scenes):]:
         axis.set_visible(False)
@@ -115,22 +117,22 @@ def bounces(rows, folder):
         widest = max(100 / total * sum(seconds(rows, scene, b).values()) for b in range(1, deepest[scene] + 1))
         for bounce in range(1, deepest[scene] + 1):
             spent = seconds(rows, scene, bounce)
-            bar(axis, bounce, spent, 100 / total, 0.06 * widest)
+            bar(axis, bounce, stages.order(rows), spent, 100 / total, 0.06 * widest)
         axis.set_yticks(range(1, deepest[scene] + 1))
         axis.set_ylim(deepest[scene] + 0.6, 0.4)
         axis.grid(axis="y", visible=False)
         axis.set(xlim=(0, 1.03 * widest), ylabel="bounce", title=f"{style.sceneText(scene)}: {1e3 * total:.0f} ms",
                  xlabel=f"share of the frame, % ({threads})")
-    named = [s for s in stages.ORDER if any(r["stage"] == s and r["bounce"] >= 1 for r in rows)]
-    patches = [Patch(facecolor=LOOKS[s][0], hatch=LOOKS[s][1], edgecolor="white", linewidth=0.5) for s in named]
+    named = [s for s in stages.order(rows) if any(r["stage"] == s and r["bounce"] >= 1 for r in rows)]
+    patches = [Patch(facecolor=LOOKS.get(s, OTHER)[0], hatch=LOOKS.get(s, OTHER)[1], edgecolor="white", linewidth=0.5) for s in named]
     style.legendAbove(figure, patches, named, ncols=len(named))
     style.save(figure, folder, "e8_bounces")
 
 
 def rates(rows, folder):
-    entries = [r for r in rows if r["bounce"] == WHOLE and r["seconds"] > 0 and r["items"] > 0]
+    entries = [r for r in rows if r["bounce"] == stages.WHOLE and r["seconds"] > 0 and r["items"] > 0]
     moved = [r for r in entries if r["bytes"] > 0]
-    threads = table.readMachine(folder / "data", "e8_stages")["cpu"]["threads"]
+    threads = table.readMachine(folder, "e8_stages")["cpu"]["threads"]
     figure, axes = style.figure(1, 2 if moved else 1, height=4.4, sharey=True, squeeze=False)
     dotsByStage(axes[0][0], entries, "items", 1e6)
     axes[0][0].set_xlabel("million items of the stage for each second\n"
@@ -138,7 +140,7 @@ def rates(rows, folder):
     if moved:
         axis = axes[0][1]
         dotsByStage(axis, moved, "bytes", 1e9)
-        rates_ = table.read(folder / "data", "e8_ceilings")
+        rates_ = table.read(folder, "e8_ceilings")
         triad = ceilings.medians(rates_, "triad")
         most = max(triad)
         axis.axvline(triad[most] / 1e9, color=style.GREY, linewidth=1)
@@ -149,7 +151,7 @@ def rates(rows, folder):
 
 
 def dotsByStage(axis, rows, column, unit):
-    names = [s for s in stages.ORDER if any(r["stage"] == s for r in rows)][::-1]
+    names = stages.order(rows)[-2::-1]
     for y, stage in enumerate(names):
         by = repeat.grouped([r for r in rows if r["stage"] == stage], ["scene"],
                             lambda r: r[column] / r["seconds"] / unit)

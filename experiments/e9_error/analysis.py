@@ -1,4 +1,4 @@
-"""What E9 reads off its runs: slopes, floors, fronts and how honest the estimate is.
+"""What E9 reads off its runs: slopes, floors, Pareto fronts and how honest the estimate is.
 
 Errors are over the mean radiance of the picture, so that scenes can be put side by side; intervals are Student's over
 the seeds, which are independent, where the looks of one run are not.
@@ -103,7 +103,7 @@ def floors(data):
     return rows
 
 
-def front(points, key, gain=0.95):
+def paretoFront(points, key, gain=0.95):
     """Those that no other beats in both time and error; less than a twentieth off the error is noise and no gain."""
     best, kept = math.inf, []
     for point in sorted(points, key=key):
@@ -113,7 +113,7 @@ def front(points, key, gain=0.95):
     return kept
 
 
-def fronts(data):
+def paretoFronts(data):
     """All variants together, scene by scene: what has the least error by each time."""
     rows = []
     for scene in data["scenes"]:
@@ -121,7 +121,7 @@ def fronts(data):
         found = [dict(scene=scene, seconds=seconds, rmse=error, variant=variant, rays_per_pixel=rays)
                  for variant in [*names, "stratified"]
                  for rays, seconds, error in curve(data, scene, variant)]
-        rows += front(found, lambda p: (p["seconds"], p["rmse"]))
+        rows += paretoFront(found, lambda p: (p["seconds"], p["rmse"]))
     return rows
 
 
@@ -155,7 +155,7 @@ def analyse(folder):
     curves, final = table.read(folder, "e9_curves"), table.read(folder, "e9_final")
     data = dict(looks=looks(curves), final=final, precision=table.read(folder, "e9_precision", mayBeEmpty=True),
                 scenes=list(dict.fromkeys(r["scene"] for r in curves)))
-    for name, find in (("slopes", slopes), ("floors", floors), ("front", fronts), ("calibration", calibration)):
+    for name, find in (("slopes", slopes), ("floors", floors), ("pareto", paretoFronts), ("calibration", calibration)):
         data[name] = find(data)
         write(folder, f"e9_{name}", data[name])
     return data

@@ -7,13 +7,14 @@ and strict arithmetic; the runs measure themselves against it with --reference a
 What single precision alone costs is the difference from `whittle reference` with the very same samples.
 
 Writes e9_curves.tsv (a row for each look of each run), e9_final.tsv (each run's picture by `whittle compare`: RMSE,
-relMSE, FLIP), e9_precision.tsv (against double precision), and what lib/e9_analysis.py finds in them: e9_slopes.tsv,
-e9_floors.tsv, e9_front.tsv, e9_calibration.tsv; figures e9_samplers, e9_measures, e9_slopes, e9_choices, e9_front,
+relMSE, FLIP), e9_precision.tsv (against double precision), and what analysis.py finds in them: e9_slopes.tsv,
+e9_floors.tsv, e9_pareto.tsv, e9_calibration.tsv; figures e9_samplers, e9_measures, e9_slopes, e9_choices, e9_pareto,
 e9_floors, e9_calibration.
 """
 import json
 import subprocess
 
+from e9_error import analysis, figures
 from lib.context import SCENES, RunFailed, size
 
 BOUNCES = 8
@@ -131,6 +132,4 @@ def measure(context):
 
 
 def plot(folder):
-    from lib import e9_analysis, e9_figures
-    found = e9_analysis.analyse(folder / "data")
-    e9_figures.draw(folder, found)
+    figures.draw(folder, analysis.analyse(folder))

@@ -3,7 +3,7 @@ first when, and whether the estimate is honest."""
 import math
 
 from lib import dots, style, table
-from lib.e9_analysis import SAMPLERS, curve, over
+from e9_error.analysis import SAMPLERS, curve, over
 from lib.measure import grouped, quartiles
 
 BIASED = ("depth", "cut-off")
@@ -13,7 +13,7 @@ THEORY = (-0.5, -0.75)  # independent samples; one in each stratum, at edges
 
 
 def threadsOf(folder):
-    return style.threadsText(table.readMachine(folder / "data", "e9_curves")["cpu"]["threads"])
+    return style.threadsText(table.readMachine(folder, "e9_curves")["cpu"]["threads"])
 
 
 def panels(scenes, height, threads, **options):
@@ -131,7 +131,7 @@ def drawChoices(folder, data):
             _, seconds, error = zip(*points)
             style.draw(axis, i, seconds, error)
             labels.add(seconds[-1], error[-1], "all of it" if variant == "sobol" else variant, style.look(i)["color"])
-        best = [r for r in data["front"] if r["scene"] == scene]
+        best = [r for r in data["pareto"] if r["scene"] == scene]
         axis.plot([r["seconds"] for r in best], [r["rmse"] for r in best], color=style.GREY, linewidth=6, alpha=0.2,
                   drawstyle="steps-post", zorder=0)
     figure.supxlabel("grey band: the least error that any setting, adaptive ones too, has by that time", fontsize=9)
@@ -165,7 +165,7 @@ def drawFloors(folder, data):
 
 
 def segments(rows, end):
-    """Neighbours on the front of one variant, as [variant, from, to]: it is first until another has less error."""
+    """Neighbours on the Pareto front of one variant, as [variant, from, to]: it is first until another has less error."""
     found = []
     for row, following in zip(rows, [*rows[1:], {"seconds": end}]):
         if found and found[-1][0] == row["variant"]:
@@ -194,15 +194,15 @@ def drawSegment(axis, row, variant, start, end, decade):
                   bbox={"facecolor": colour, "edgecolor": "none", "pad": 0.6} if hatch else None)
 
 
-def drawFront(folder, data):
+def drawPareto(folder, data):
     """Which setting has the least error by which time: a bar for each scene."""
     figure, axis = style.figure(1, 1, 0.55 * len(data["scenes"]) + 1.6)
-    low, high = (f(r["seconds"] for r in data["front"]) for f in (min, max))
+    low, high = (f(r["seconds"] for r in data["pareto"]) for f in (min, max))
     low, high = 0.9 * low, 1.5 * high
     axis.set(xscale="log", xlim=(low, high),
              xlabel=f"seconds of rendering, {threadsOf(folder)} (below: RMSE over the mean)")
     for row, scene in enumerate(reversed(data["scenes"])):
-        rows = [r for r in data["front"] if r["scene"] == scene]
+        rows = [r for r in data["pareto"] if r["scene"] == scene]
         for variant, start, end in segments(rows, rows[-1]["seconds"] * 1.3):
             drawSegment(axis, row, variant, start, end, 560 / math.log10(high / low))
         for r in rows[:: max(len(rows) // 4, 1)]:
@@ -212,7 +212,7 @@ def drawFront(folder, data):
     axis.set_ylim(-0.75, len(data["scenes"]) - 0.6)
     style.plainLog(axis.xaxis)
     legendBelow(axis, axis.get_legend_handles_labels())
-    style.save(figure, folder, "e9_front")
+    style.save(figure, folder, "e9_pareto")
 
 
 def honest(rows):
@@ -263,5 +263,5 @@ def drawCalibration(folder, data):
 
 
 def draw(folder, data):
-    for each in (drawSamplers, drawMeasures, drawSlopes, drawChoices, drawFloors, drawFront, drawCalibration):
+    for each in (drawSamplers, drawMeasures, drawSlopes, drawChoices, drawFloors, drawPareto, drawCalibration):
         each(folder, data)

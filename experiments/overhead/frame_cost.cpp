@@ -2,7 +2,7 @@
 // stages timed as --profile and --stats do, and with launches recorded as --trace does; in each round all of
 // them, in random order. Tab-separated lines to standard output: variant, round, seconds of rendering,
 // seconds that its table or timeline takes afterwards (as text, without the disk), launches. usage:
-// frame_cost SCENE.glb WIDTH HEIGHT RAYS_PER_PIXEL WAVEFRONT ROUNDS        (experiments/overhead.py runs it)
+// frame_cost SCENE.glb WIDTH HEIGHT RAYS_PER_PIXEL WAVEFRONT ROUNDS        (experiments/run overhead)
 #include <fmt/format.h>
 
 #include <algorithm>

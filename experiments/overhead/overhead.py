@@ -5,7 +5,7 @@ times and each round in another order, as what is looked for is smaller than the
 median of the ratios within rounds, with an interval of 95 % by resampling. Once with the program's own wavefront, once
 with wavefronts so small that a frame has thousands of launches, each of which is timed and a trace records.
 
-Writes data/overhead.tsv, a row for each frame; figures/overhead.
+Writes overhead.tsv, a row for each frame; figure overhead.
 """
 import statistics
 import subprocess
@@ -80,7 +80,7 @@ def plotCase(axis, rows, case):
 
 
 def plot(folder):
-    rows = table.read(folder / "data", "overhead")
+    rows = table.read(folder, "overhead")
     figure, axes = style.figure(1, len(CASES), 2.4, sharey=True)
     for axis, case in zip(axes, CASES):
         plotCase(axis, rows, case)

@@ -1,8 +1,8 @@
-#!/usr/bin/python3
-"""Writes one of our scenes for other renderers, so that they do the same work: same triangles, lights, camera and
-depth.
+"""Writes one of our scenes for other renderers.
 
-usage: experiments/export_scene.py SCENE.glb [--povray FILE.pov] [--blender FILE.py] [--bounces N]
+The same triangles, lights, camera and depth, so that they do the same work.
+
+usage: experiments/run export_scene -- SCENE.glb [--povray FILE.pov] [--blender FILE.py] [--bounces N]
        povray +IFILE.pov +WT2 -A +FE Declare=Bounces=8   (one ray for each pixel; see peers/povray.py for the units)
        blender --background --factory-startup --python FILE.py -- OUT.exr WIDTH HEIGHT THREADS BOUNCES SAMPLES
 needs: Debian's python3-numpy; povray and blender only to render what was written
@@ -13,13 +13,13 @@ import sys
 from peers import cycles, gltf, povray
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="experiments/run export_scene --", description=__doc__.split("\n")[0])
     parser.add_argument("scene", help="a GLB")
     parser.add_argument("--povray", metavar="FILE.pov", help="scene description for POV-Ray 3.7")
     parser.add_argument("--blender", metavar="FILE.py", help="script for Blender 3.4; its arrays go to FILE.npz")
     parser.add_argument("--bounces", type=int, default=8, help="default depth in FILE.pov")
-    a = parser.parse_args()
+    a = parser.parse_args(arguments)
     if not (a.povray or a.blender):
         parser.error("nothing to write: give --povray FILE.pov or --blender FILE.py")
     try:
@@ -34,7 +34,3 @@ def main():
         print(problem, file=sys.stderr)
         return 2
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

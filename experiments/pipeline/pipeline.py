@@ -1,17 +1,11 @@
-#!/usr/bin/python3
-"""Draws the pipeline: what runs on the host and on the device, which queue lies between two stages, and what is left
-out when.
+"""Draws the pipeline: what runs on host and device, the queue between two stages, and what is left out when.
 
-writes: figures/pipeline.svg and .png beside this script
-needs: Debian's python3-matplotlib; /usr/bin/python3
+Writes the figure pipeline; nothing is measured.
 """
-import pathlib
-
 from matplotlib.patches import FancyBboxPatch
 
 from lib import style
 
-FOLDER = pathlib.Path(__file__).resolve().parent
 HOST, DEVICE, QUEUE = "#e8eef5", "#fdf0e0", "#ffffff"
 HEIGHT = 0.62
 
@@ -72,7 +66,7 @@ def drawDevice(axis):
               fontsize=8.5, color="#333333", va="center")
 
 
-def main():
+def plot(folder):
     figure, axis = style.figure(height=5.6)
     axis.set(xlim=(0, 11.5), ylim=(0.2, 7.9))
     axis.axis("off")
@@ -80,8 +74,4 @@ def main():
     axis.text(0.2, 5.35, "device, for each batch of samples that fits the queues", fontsize=10, color=style.GREY)
     drawHost(axis)
     drawDevice(axis)
-    style.save(figure, FOLDER, "pipeline")
-
-
-if __name__ == "__main__":
-    main()
+    style.save(figure, folder, "pipeline")

@@ -1,4 +1,4 @@
-"""Figures of bump.py: what went wrong in each place with each bump, and acne against the length."""
+"""Figures of the ray offset: what went wrong in each place with each offset, and acne against the length."""
 import math
 
 from lib import style, table
@@ -58,7 +58,7 @@ def drawGaps(axis, values, default, lost):
 
 
 def drawPlaces(folder):
-    rows = table.read(folder / "data", "bump")
+    rows = table.read(folder, "ray_offset")
     there = places(rows)
     variants = list(dict.fromkeys(r["variant"] for r in rows))
     at = {(v, p): [r for r in rows if r["variant"] == v and (r["size_m"], r["away_m"]) == p]
@@ -86,11 +86,11 @@ def drawPlaces(folder):
     for axis in axes[-1]:
         axis.set_xticks(range(len(there)), [label(p) if x % 2 == 0 else "" for x, p in enumerate(there)], fontsize=8)
         axis.set_xlabel("size at the origin, m | distance\nfrom the origin of 1 m, m", fontsize=8)
-    style.save(figure, folder, "bump")
+    style.save(figure, folder, "ray_offset")
 
 
 def drawLengths(folder):
-    rows = table.read(folder / "data", "bump_lengths")
+    rows = table.read(folder, "ray_offset_lengths")
     figure, axes = style.figure(1, 3, height=3.4, sharey=True)
     titles = {"acne": "light on convex bodies", "acne, leaning normals": "where normals lean over",
               "mirror": "mirror images"}
@@ -107,10 +107,10 @@ def drawLengths(folder):
         axis.set_xlabel("length in $2^{-24}$ of the coordinates\n(line: the default's, $2^{-20}$)")
     axes[0].set_ylabel("rays that met what they left, %")
     axes[2].legend(fontsize=8, loc="upper right", framealpha=1, edgecolor="none", borderpad=0.2)
-    style.save(figure, folder, "bump_lengths")
+    style.save(figure, folder, "ray_offset_lengths")
 
 
 def draw(folder):
     drawPlaces(folder)
-    if (folder / "data" / "bump_lengths.tsv").exists():
+    if (folder / "ray_offset_lengths.tsv").exists():
         drawLengths(folder)

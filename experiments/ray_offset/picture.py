@@ -1,11 +1,11 @@
-"""The sheet that shows what a bump does wrong: a ball, a card over the floor and a tent that no light enters."""
+"""The sheet that shows what an offset does wrong: a ball, a card over the floor and a tent that no light enters."""
 import math
 
 import numpy
 
 from lib import glb, style
-from lib.bump_scenes import GRID, Place, ellipsoid, onGrid
 from peers.pictures import pixels, shown
+from ray_offset.scenes import GRID, Place, ellipsoid, onGrid
 
 PLACES = {"1 m": Place(1.0), "0.1 mm": Place(1e-4), "1 m, 10 km\nfrom the origin": Place(1.0, 1e4)}
 WIDTH, HEIGHT = 320, 240
@@ -45,22 +45,20 @@ def stillLife(place):
 
 
 def render(context, variants):
-    """FOLDER/figures/bump_why.png: a column for each of the variants (title -> Variant), a row for each place."""
+    """OUT/ray_offset_why.png: a column for each of the variants (title -> Variant), a row for each place."""
     figure, axes = style.pyplot.subplots(len(PLACES), len(variants), figsize=(11, 1.4 * len(PLACES) + 0.3),
                                          squeeze=False)
     for axis, title in zip(axes[0], variants):
         axis.set_title(title, fontsize=9)
     for line, (where, place) in zip(axes, PLACES.items()):
-        scene = stillLife(place).write(context.folder / f"bump_why_{place.size:g}_{place.away:g}.glb")
+        scene = stillLife(place).write(context.folder / f"ray_offset_why_{place.size:g}_{place.away:g}.glb")
         for k, (axis, variant) in enumerate(zip(line, variants.values())):
             # A new name for each: OpenImageIO keeps files that it read.
-            picture = context.folder / f"bump_why_{place.size:g}_{place.away:g}_{k}.exr"
+            picture = context.folder / f"ray_offset_why_{place.size:g}_{place.away:g}_{k}.exr"
             context.render(scene, "--width", WIDTH, "--height", HEIGHT, "--bounces", 1, "--keep-all-features",
                            "-o", picture, *variant.options(context, place))
             axis.imshow(shown(pixels(picture)), interpolation="nearest")
             axis.set(xticks=[], yticks=[])
         line[0].set_ylabel(where, fontsize=9)
-    figures = context.out / "figures"
-    figures.mkdir(parents=True, exist_ok=True)
-    figure.savefig(figures / "bump_why.png", dpi=200)
+    figure.savefig(context.out / "ray_offset_why.png", dpi=200)
     style.pyplot.close(figure)

@@ -1,29 +1,30 @@
 """How far should rays start off the surface they leave, and along what?
 
-Held constant: scenes (lib/bump_scenes.py), whose pictures are known beforehand, so that whatever else comes out was the
-bump's doing. Varied: the bump, by another kernels/lib/ray_offset.cl (bumps/) or a fixed length; the scene's size, 1e-6 to
-1e8 m at the origin, and its distance from the origin, up to 1e4 times its size. Counted at each: acne (light lost on
+Held constant: scenes (scenes.py), whose pictures are known beforehand, so that whatever else comes out was the offset's
+doing. Varied: the offset, by another ray_offset.cl among the kernels (ray_offsets/) or a fixed length; the scene's size,
+1e-6 to 1e8 m at the origin, and its distance from the origin, up to 1e4 times its size. Counted at each: acne (light lost on
 convex bodies), mirror and air (rays that leave one and meet it again), leak (lit pixels in a closed room), the smallest
 gap whose shadow and mirror image are whole. Frames of two scenes are timed in turn, with what each needs compiled.
-Writes data/bump.tsv (counts), bump_lengths.tsv (acne against the length), bump_times.tsv; figures bump, bump_lengths
-and the picture bump_why.
+Writes data/ray_offset.tsv (counts), ray_offset_lengths.tsv (acne against the length), ray_offset_times.tsv; figures bump, ray_offset_lengths
+and the picture ray_offset_why.
 """
 import concurrent.futures
 import dataclasses
 import functools
+import pathlib
 import shutil
 
-from lib import bump_picture
-from lib import bump_scenes as scenes
 from lib import measure as repeat
-from lib.bump_scenes import Place
 from lib.context import ROOT, SCENES, size
 from peers.pictures import pixels
+from ray_offset import figures, picture as sheet, scenes
+from ray_offset.scenes import Place
 
 
 @dataclasses.dataclass(frozen=True)
 class Variant:
-    """A bump: the file that replaces kernels/lib/ray_offset.cl, and a fixed length where it has one: metres, or heights."""
+    """An offset: the file that replaces ray_offset.cl of the kernels, and a fixed length where it has one: metres, or
+    heights."""
     name: str
     file: str | None = None
     metres: float | None = None
@@ -32,11 +33,11 @@ class Variant:
     def options(self, context, place):
         kernels = ["--kernels", kernelFolder(context, self.file)] if self.file else []
         length = self.metres if self.heights is None else self.heights * place.size
-        return kernels + ([] if length is None else ["--bump", f"{length:.9g}"])
+        return kernels + ([] if length is None else ["--ray-offset", f"{length:.9g}"])
 
 
 DEFAULT = Variant("2^-20 of the hit, geometric normal")
-# Not every vector with every length: a length's faults are the same along each (bump_lengths.tsv has them all).
+# Not every vector with every length: a length's faults are the same along each (ray_offset_lengths.tsv has them all).
 VARIANTS = [
     DEFAULT,
     Variant("error bound (pbrt-v4), geometric normal", "error_bound"),
@@ -59,30 +60,32 @@ LENGTHS = [2.0**k for k in range(-2, 7)]  # in 2^-24 of the coordinates: half an
 FAR = Place(1.0, 1000.0)
 # name: scene, bounces; more than one, so that one program draws all three
 PICTURES = {"shadow": (scenes.shadowScene, 2), "mirror": (scenes.mirrorScene, 2), "air": (scenes.airScene, 3)}
-RENDERED = ["bump_why.png"]  # a sheet of pictures; none of them is kept as data
+RENDERED = ["ray_offset_why.png"]  # a sheet of pictures; none of them is kept as data
 COLUMNS = ["variant", "size_m", "away_m", "measure", "value", "of"]
 TIMED = {"cornell_box": lambda c: SCENES / "cornell_box.glb", "height_field_256": lambda c: c.heightField(256)}
 
 
 def kernelFolder(context, name):
-    """The program's kernels with bumps/NAME.cl in the place of lib/ray_offset.cl, which it may include as default_ray_offset.cl."""
+    """The program's kernels with ray_offsets/NAME.cl in the place of ray_offset.cl, which it may include as
+    lib/default_ray_offset.cl."""
     folder = context.folder / f"kernels_{name}"
     if not folder.exists():
         shutil.copytree(ROOT / "kernels", folder)
-        shutil.copy(folder / "lib" / "ray_offset.cl", folder / "lib" / "default_ray_offset.cl")
-        shutil.copy(ROOT / "experiments" / "bumps" / f"{name}.cl", folder / "lib" / "ray_offset.cl")
+        place, = folder.rglob("ray_offset.cl")
+        shutil.copy(place, folder / "lib" / "default_ray_offset.cl")
+        shutil.copy(pathlib.Path(__file__).parent / "ray_offsets" / f"{name}.cl", place)
     return folder
 
 
 def sceneFile(context, name, place):
-    file = context.folder / f"bump_{name}_{place.size:g}_{place.away:g}.glb"
+    file = context.folder / f"ray_offset_{name}_{place.size:g}_{place.away:g}.glb"
     return file if file.exists() else PICTURES[name][0](place).write(file)
 
 
 def picture(context, name, place, *options):
     """Radiance of one of the three scenes. All features are kept: one program for all of them."""
     tag = abs(hash((name, place, options)))
-    file = context.folder / f"bump_{tag}.exr"
+    file = context.folder / f"ray_offset_{tag}.exr"
     context.render(sceneFile(context, name, place), *size(scenes.WIDTH, scenes.HEIGHT), "--bounces", PICTURES[name][1],
                    "--threads", 1, "--keep-all-features", "-o", file, *options)
     radiance = pixels(file).astype("f4")
@@ -148,13 +151,13 @@ def sideBySide(context, jobs):
 
 
 def count(context, variants, places):
-    out = context.table("bump", COLUMNS)
+    out = context.table("ray_offset", COLUMNS)
     lit = dict(zip(places, sideBySide(context, [
         functools.partial(picture, context, "shadow", p, "--no-shadows") for p in places])))
     asked = [(v, p) for v in variants for p in places]
     jobs = [functools.partial(picture, context, name, p, *v.options(context, p)) for v, p in asked for name in PICTURES]
     found = sideBySide(context, jobs)
-    progress = context.progress("bump", len(asked))
+    progress = context.progress("ray_offset", len(asked))
     for variant, place in asked:
         pictures = {name: next(found) for name in PICTURES}
         for measure_, (value, of) in measures(lit[place], pictures).items():
@@ -164,7 +167,7 @@ def count(context, variants, places):
 
 def sweepLengths(context):
     """Light lost against the length, for each vector, where the largest coordinate is the same everywhere."""
-    out = context.table("bump_lengths", ["vector", "length", "measure", "value", "of"])
+    out = context.table("ray_offset_lengths", ["vector", "length", "measure", "value", "of"])
     vectors = {"geometric normal": None, "shading normal": "shading_normal", "ray": "ray_direction"}
     lit = picture(context, "shadow", FAR, "--no-shadows")
     asked = [(vector, length) for vector in vectors for length in LENGTHS]
@@ -184,7 +187,7 @@ def sweepLengths(context):
 
 def timeFrames(context):
     """Frames of each length and vector, in turn; one fixed length stands for all."""
-    out = context.table("bump_times", ["scene", "variant", "run", "render_s"])
+    out = context.table("ray_offset_times", ["scene", "variant", "run", "render_s"])
     chosen = [v for v in VARIANTS if v.name != "none" and v.heights is None]
     for name, find in list(TIMED.items())[:context.pick(1, None)]:
         file, picture_ = find(context), context.pick(size(320, 180), size(1280, 720))
@@ -202,7 +205,7 @@ def counts(context):
     if not context.quick:
         sweepLengths(context)
     named = {v.name: v for v in variants}
-    bump_picture.render(context, {title: named[name] for title, name in SHOWN.items() if name in named})
+    sheet.render(context, {title: named[name] for title, name in SHOWN.items() if name in named})
 
 
 def measure(context):
@@ -211,5 +214,4 @@ def measure(context):
 
 
 def plot(folder):
-    from lib import bump_figures
-    bump_figures.draw(folder)
+    figures.draw(folder)

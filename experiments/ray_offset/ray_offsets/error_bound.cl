@@ -5,7 +5,7 @@
 
 INLINE Real rayOffsetAt(const RenderConstants* constants, const Surfel* s) {
 #if HAS(FIXED_RAY_OFFSET)
-  if (!(constants->bump < 0.0f)) return (Real)(constants->bump);
+  if (!(constants->rayOffset < 0.0f)) return (Real)(constants->rayOffset);
 #endif
   const Real3 size = real3(fabs(s->n_g.x), fabs(s->n_g.y), fabs(s->n_g.z));
   return dots(size, s->extent) * (7.0f * 5.9604645e-8f / (1.0f - 7.0f * 5.9604645e-8f));
@@ -20,8 +20,8 @@ INLINE Real roundedAway(Real x, Real offset) {
 }
 
 INLINE Real3 offsetOrigin(const RenderConstants* constants, const Surfel* s, Real3 w_i) {
-  const Real bump = rayOffsetAt(constants, s);
-  const Real3 offset = scale3(dots(s->n_g, w_i) > 0.0f ? bump : -bump, s->n_g);
+  const Real length = rayOffsetAt(constants, s);
+  const Real3 offset = scale3(dots(s->n_g, w_i) > 0.0f ? length : -length, s->n_g);
   const Real3 o = add3(s->position, offset);
   return real3(roundedAway(o.x, offset.x), roundedAway(o.y, offset.y), roundedAway(o.z, offset.z));
 }

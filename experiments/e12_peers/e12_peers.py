@@ -5,7 +5,8 @@ the centre of each pixel, eight bounces, all threads, 1280x720, runs in turn. Th
 that the work is the same: same triangles seen, same shadows, same mirror images. Queries: `whittle bench`, which
 times Embree on the same rays.
 
-writes: e12_frames.tsv (a row for each run), e12_pictures.tsv, e12_queries.tsv; figures e12_frames, e12_queries, e12_pictures_SCENE
+writes: e12_frames.tsv (a row for each run), e12_pictures.tsv, e12_queries.tsv; figures e12_frames,
+        e12_queries, e12_pictures_SCENE
 needs: povray and blender (Debian's packages) for whole frames, python3-openimageio for the pictures; what is not
        there is left out
 """

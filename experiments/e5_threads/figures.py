@@ -171,7 +171,8 @@ def share(parts):
 def launches(axis, measured):
     """Each launch: how much faster on all processors, by how many work-groups it has."""
     kinds = {"searches": stages.isSearch, "raygen, shade": lambda r: r["stage"] in ("raygen", "shade"),
-             "compact": lambda r: r["stage"] == "compact", "accumulate, film": lambda r: r["stage"] in ("accumulate", "film")}
+             "compact": lambda r: r["stage"] == "compact",
+             "accumulate, film": lambda r: r["stage"] in ("accumulate", "film")}
     for i, (name, isOne) in enumerate(kinds.items()):
         rows = [r for r in measured.launches if isOne(r) and r["all_processors_s"] > 0]
         axis.plot([r["groups"] for r in rows], [r["one_thread_s"] / r["all_processors_s"] for r in rows], label=name,

@@ -15,7 +15,8 @@ from lib.context import ROOT, size
 OWN = ["cornell_box", "mirror_box", "nested_glass", "refraction", "textured"]
 SHARED = {"Sponza": "bench/crytek-sponza/crytek-sponza.glb", "coffee maker": "bench/coffee/coffee.glb",
           "kitchen": "bench/kitchen/kitchen.glb", "teapot": "bench/teapot-full/teapot-full.glb"}
-COLUMNS = ["scene", "triangles", "rays", "run", "render_s", "bounce", "stage", "program", "launches", "seconds", "items", "bytes"]
+COLUMNS = ["scene", "triangles", "rays", "run", "render_s", "bounce", "stage", "program", "launches", "seconds",
+           "items", "bytes"]
 
 
 def scenes(context):

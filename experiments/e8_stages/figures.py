@@ -124,7 +124,8 @@ def bounces(rows, folder):
         axis.set(xlim=(0, 1.03 * widest), ylabel="bounce", title=f"{style.sceneText(scene)}: {1e3 * total:.0f} ms",
                  xlabel=f"share of the frame, % ({threads})")
     named = [s for s in stages.order(rows) if any(r["stage"] == s and r["bounce"] >= 1 for r in rows)]
-    patches = [Patch(facecolor=LOOKS.get(s, OTHER)[0], hatch=LOOKS.get(s, OTHER)[1], edgecolor="white", linewidth=0.5) for s in named]
+    looks = [LOOKS.get(s, OTHER) for s in named]
+    patches = [Patch(facecolor=colour, hatch=hatch, edgecolor="white", linewidth=0.5) for colour, hatch in looks]
     style.legendAbove(figure, patches, named, ncols=len(named))
     style.save(figure, folder, "e8_bounces")
 

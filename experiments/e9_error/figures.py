@@ -165,7 +165,7 @@ def drawFloors(folder, data):
 
 
 def segments(rows, end):
-    """Neighbours on the Pareto front of one variant, as [variant, from, to]: it is first until another has less error."""
+    """Neighbours on the Pareto front of one variant, as [variant, from, to]: first until another has less error."""
     found = []
     for row, following in zip(rows, [*rows[1:], {"seconds": end}]):
         if found and found[-1][0] == row["variant"]:

@@ -8,7 +8,7 @@ import pathlib
 import subprocess
 import sys
 
-from lib.context import ROOT, SCENES, RunFailed, Skipped
+from lib.context import SCENES, RunFailed, Skipped
 
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "checks"
 
@@ -24,20 +24,21 @@ class Check:
 
 SMALL = ("--width", "96", "--height", "54")
 CHECKS = {
-    "same_bits": Check("Is a picture the same bit for bit with everything compiled in?", "same_bits.py", "same_bits.tsv",
-                       (str(SCENES / "mirror.glb"), str(SCENES / "textured.glb"))),
-    "agreement": Check("How far are the kernels from the double-precision reference?", "agreement.py", "agreement.tsv",
-                       (*SMALL, str(SCENES / "cornell_box.glb"))),
-    "limits": Check("Where does a picture go wrong as it grows, moves away or gets brighter?", "limits.py", "limits.tsv",
-                    ("--sweep", "distance")),
-    "leaks": Check("Does a ray find a way out of a closed mesh?", "leaks.sh", "leaks.tsv", ("1e5",),
-                   ("tests/test_kernels",)),
-    "cutoff": Check("What does a cut-off save, and what does it cost?", "cutoff.py", "cutoff.tsv",
+    "same_bits": Check("Is a picture the same bit for bit with everything compiled in?",
+                       "same_bits.py", "same_bits.tsv", (str(SCENES / "mirror.glb"), str(SCENES / "shadow.glb"))),
+    "agreement": Check("How far are the kernels from the double-precision reference?",
+                       "agreement.py", "agreement.tsv", (*SMALL, str(SCENES / "cornell_box.glb"))),
+    "limits": Check("Where does a picture go wrong as it grows, moves away or gets brighter?",
+                    "limits.py", "limits.tsv", ("--sweep", "distance")),
+    "leaks": Check("Does a ray find a way out of a closed mesh?",
+                   "leaks.sh", "leaks.tsv", ("1e5",), ("tests/test_kernels",)),
+    "cutoff": Check("What does a cut-off save, and what does it cost?",
+                    "cutoff.py", "cutoff.tsv",
                     (str(SCENES / "nested_glass.glb"), "--bounces", "8", "--runs", "1", *SMALL)),
-    "searches": Check("How fast are the searches, beside Embree's?", "searches.sh", "searches.txt", ("--quick",),
-                      ("make_scenes",)),
-    "build_quality": Check("What does the fast build of the tree cost the rays?", "build_quality.sh", "build_quality.tsv",
-                           ("--quick",), ("make_scenes", "build_quality")),
+    "searches": Check("How fast are the searches, beside Embree's?",
+                      "searches.sh", "searches.txt", ("--quick",), ("make_scenes",)),
+    "build_quality": Check("What does the fast build of the tree cost the rays?",
+                           "build_quality.sh", "build_quality.tsv", ("--quick",), ("make_scenes", "build_quality")),
 }
 
 

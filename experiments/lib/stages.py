@@ -1,7 +1,7 @@
 """Stages of a frame as the figures show them: kernels that do one job together, and the host's part of the frame.
 
-What a kernel's job is, and which program it is in, the statistics say themselves: keys `job` and `program` of each entry
-of `stages`.
+The statistics say what a kernel's job is and which program it is in: keys `job` and `program` of each entry of
+`stages`.
 """
 import collections
 import pathlib

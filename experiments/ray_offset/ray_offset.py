@@ -1,12 +1,14 @@
 """How far should rays start off the surface they leave, and along what?
 
 Held constant: scenes (scenes.py), whose pictures are known beforehand, so that whatever else comes out was the offset's
-doing. Varied: the offset, by another ray_offset.cl among the kernels (ray_offsets/) or a fixed length; the scene's size,
-1e-6 to 1e8 m at the origin, and its distance from the origin, up to 1e4 times its size. Counted at each: acne (light lost on
-convex bodies), mirror and air (rays that leave one and meet it again), leak (lit pixels in a closed room), the smallest
-gap whose shadow and mirror image are whole. Frames of two scenes are timed in turn, with what each needs compiled.
-Writes data/ray_offset.tsv (counts), ray_offset_lengths.tsv (acne against the length), ray_offset_times.tsv; figures bump, ray_offset_lengths
-and the picture ray_offset_why.
+doing. Varied: the offset, by another ray_offset.cl among the kernels (ray_offsets/) or a fixed length; the scene's
+size, 1e-6 to 1e8 m at the origin, and its distance from the origin, up to 1e4 times its size. Counted at each: acne
+(light lost on convex bodies), mirror and air (rays that leave one and meet it again), leak (lit pixels in a closed
+room), the smallest gap whose shadow and mirror image are whole. Frames of two scenes are timed in turn, with what each
+needs compiled.
+
+Writes ray_offset.tsv (counts), ray_offset_lengths.tsv (acne against the length), ray_offset_times.tsv; figures
+ray_offset, ray_offset_lengths and the picture ray_offset_why.
 """
 import concurrent.futures
 import dataclasses

@@ -1,5 +1,5 @@
-"""Imports of experiments/ go down only: an experiment imports its own folder, peers/ and lib/; peers/ imports lib/; lib/
-imports nothing of the others; and no module imports itself by way of others. Reads the files, runs none of them.
+"""Imports of experiments/ go down only: an experiment imports its own folder, peers/ and lib/; peers/ imports lib/;
+lib/ imports nothing of the others; and no module imports itself by way of others. Reads the files, runs none of them.
 """
 import ast
 import pathlib
@@ -41,9 +41,10 @@ def circle(graph, start):
 
 
 class Imports(unittest.TestCase):
-    def setUp(self):
+    @classmethod
+    def setUpClass(cls):
         known = modules()
-        self.graph = {name: imported(file, known) for name, file in known.items()}
+        cls.graph = {name: imported(file, known) for name, file in known.items()}
 
     def test_imports_are_seen_at_all(self):
         self.assertIn("lib.style", self.graph["e1_triangles.e1_triangles"])

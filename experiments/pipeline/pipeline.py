@@ -10,7 +10,7 @@ HOST, DEVICE, QUEUE = "#e8eef5", "#fdf0e0", "#ffffff"
 HEIGHT = 0.62
 
 # name, second line, x, y, width
-HOST_BOXES = [("load", "glTF → Scene", 0.2, 6.6, 1.7), ("scene use", "what is seen at all", 2.3, 6.6, 1.9),
+HOST_BOXES = [("load", "glTF → Scene", 0.2, 6.6, 1.7), ("prune", "what is seen at all", 2.3, 6.6, 1.9),
               ("features", "what is compiled, run", 4.6, 6.6, 2.0),
               ("build tree", "two- and eight-wide", 7.0, 7.0, 1.9), ("compile", "three programs", 7.0, 6.1, 1.9),
               ("upload", "device scene, queues", 9.3, 6.6, 2.0)]

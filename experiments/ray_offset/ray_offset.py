@@ -69,12 +69,12 @@ TIMED = {"cornell_box": lambda c: SCENES / "cornell_box.glb", "height_field_256"
 
 def kernelFolder(context, name):
     """The program's kernels with ray_offsets/NAME.cl in the place of ray_offset.cl, which it may include as
-    lib/default_ray_offset.cl."""
+    default_ray_offset.cl beside it."""
     folder = context.folder / f"kernels_{name}"
     if not folder.exists():
         shutil.copytree(ROOT / "kernels", folder)
         place, = folder.rglob("ray_offset.cl")
-        shutil.copy(place, folder / "lib" / "default_ray_offset.cl")
+        shutil.copy(place, place.with_name("default_ray_offset.cl"))
         shutil.copy(pathlib.Path(__file__).parent / "ray_offsets" / f"{name}.cl", place)
     return folder
 

@@ -20,14 +20,14 @@ INLINE Real roundedAway(Real x, Real offset) {
 }
 
 INLINE Real3 offsetOrigin(const RenderConstants* constants, const Surfel* s, Real3 w_i) {
-  const Real length = rayOffsetAt(constants, s);
-  const Real3 offset = scale3(dots(s->n_g, w_i) > 0.0f ? length : -length, s->n_g);
+  const Real bump = rayOffsetAt(constants, s);
+  const Real3 offset = scale3(dots(s->n_g, w_i) > 0.0f ? bump : -bump, s->n_g);
   const Real3 o = add3(s->position, offset);
   return real3(roundedAway(o.x, offset.x), roundedAway(o.y, offset.y), roundedAway(o.z, offset.z));
 }
 
 INLINE Real shadowLength(const RenderConstants* constants, const Surfel* s, Real distance) {
   const Real free = distance - 2.0f * rayOffsetAt(constants, s);
-  const Real length = distance < INFINITY ? free : (Real)(MAXFLOAT);
+  const Real bump = distance < INFINITY ? free : (Real)(MAXFLOAT);
   return length > 0.0f ? length : (Real)(0.0f);
 }

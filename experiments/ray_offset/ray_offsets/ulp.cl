@@ -21,6 +21,6 @@ INLINE Real3 offsetOrigin(const RenderConstants* constants, const Surfel* s, Rea
 
 INLINE Real shadowLength(const RenderConstants* constants, const Surfel* s, Real distance) {
   const Real free = distance - 2.0f * rayOffsetAt(constants, s);
-  const Real bump = distance < INFINITY ? free : (Real)(MAXFLOAT);
+  const Real length = distance < INFINITY ? free : (Real)(MAXFLOAT);
   return length > 0.0f ? length : (Real)(0.0f);
 }

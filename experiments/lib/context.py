@@ -1,8 +1,9 @@
 """What an experiment is handed: how to run the program, where to write, and how much to do.
 
-An experiment is a file experiments/eN_name.py with measure(context), which writes context.table(...) row by row, and
-plot(folder), which reads FOLDER/data and writes FOLDER/figures. It raises Skipped where it lacks something.
+An experiment is a module NAME/NAME.py with measure(context), which writes context.table(...) row by row, and
+plot(folder), which reads the tables of FOLDER and draws figures into it. It raises Skipped where it lacks something.
 """
+import copy
 import json
 import os
 import pathlib
@@ -28,18 +29,26 @@ class RunFailed(Exception):
 
 
 class Context:
-    def __init__(self, whittle, out, quick, temporary):
+    """out: the folder of tables and figures; given: the program was named by hand, it need not be this tree's."""
+
+    def __init__(self, whittle, out, quick, temporary, given=False):
         self.whittle, self.out, self.quick = pathlib.Path(whittle), pathlib.Path(out), quick
         self.folder = pathlib.Path(temporary)  # for generated scenes; removed at the end
         self.threads = machine.threadsHere()
-        self.record = machine.record(self.whittle)
+        self.record = machine.record(self.whittle, given)
         self.environment = dict(os.environ, POCL_CACHE_DIR=str(self.folder / "kernels"))
+
+    def inside(self, name):
+        """The same for one experiment: OUT/NAME is its folder."""
+        own = copy.copy(self)
+        own.out = self.out / name
+        return own
 
     def pick(self, quick, full):
         return quick if self.quick else full
 
     def table(self, name, columns):
-        return Table(self.out / "data", name, columns, self.record)
+        return Table(self.out, name, columns, self.record)
 
     def progress(self, name, weight):
         return Progress(name, weight)

@@ -8,6 +8,11 @@ import os
 import pathlib
 import platform
 import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+# What experiments write themselves says nothing about the program that they measure.
+WRITTEN = ["*.tsv", "*.machine.json", "*.svg", "*.png", "stability.md", "searches.txt"]
 
 
 def output(*command):
@@ -57,11 +62,37 @@ def compiler(whittle):
     return {"version": output(name, "--version").split("\n")[0], "build": entries.get("CMAKE_BUILD_TYPE:STRING", "")}
 
 
-def record(whittle):
-    """Everything that a reader needs to judge or repeat a measurement."""
+def changedFiles():
+    """Files of the tree that differ from its last commit or are in none; None where no git can tell."""
+    if not output("git", "-C", HERE, "rev-parse", "HEAD"):
+        return None
+    leftOut = [f":(exclude,top,glob)experiments/**/{pattern}" for pattern in WRITTEN]
+    return output("git", "-C", HERE, "status", "--porcelain", "--", ":(top)", *leftOut).splitlines()
+
+
+def tree():
+    """The revision, "-dirty" where files are changed, and whether it was clean: true, false or null (nobody knows)."""
+    changed = changedFiles()
+    revision = output("git", "-C", HERE, "describe", "--always")
+    return {"revision": revision + ("-dirty" if changed else ""), "cleanTree": None if changed is None else not changed,
+            "changedFiles": [line.strip() for line in changed or []][:20]}
+
+
+def sayWhetherClean(record_):
+    """A line on standard error where a later reader could not come by the same program."""
+    if record_["cleanTree"] is None:
+        print("experiments/run: no git here: the records cannot name a revision", file=sys.stderr)
+    elif not record_["cleanTree"]:
+        files = ", ".join(line.split()[-1] for line in record_["changedFiles"][:3])
+        print(f"experiments/run: the tree is not clean ({files}, ...): the records say so", file=sys.stderr)
+
+
+def record(whittle, given=False):
+    """Everything that a reader needs to judge or repeat a measurement. given: the program was named by hand, and may
+    be of another tree than the scripts."""
     devices = json.loads(output(whittle, "devices", "--json") or '{"devices": []}')["devices"]
     return {"date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
             "whittle": output(whittle, "--version"),
-            "revision": output("git", "-C", str(pathlib.Path(__file__).parent), "describe", "--always", "--dirty"),
+            **tree(), "program": "named by --whittle" if given else "built from this tree",
             "cpu": cpu(), "memoryBytes": memoryBytes(), "os": osName(), "kernel": platform.release(),
             "compiler": compiler(whittle), "devices": devices}

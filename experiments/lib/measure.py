@@ -59,8 +59,3 @@ def curve(rows, x, value, **chosen):
     groups = sorted(grouped(picked, [x], value).items())
     spread = [quartiles(v) for _, v in groups]
     return [g[0][0] for g in groups], [s[1] for s in spread], [s[0] for s in spread], [s[2] for s in spread]
-
-
-def stage(statistics_, *names):
-    """Seconds that the named stages of a render took together."""
-    return sum(s["seconds"] for s in statistics_["stages"] if s["name"] in names)

@@ -1,36 +1,70 @@
-"""Stages of a frame as the figures show them: kernels that do one job together, and the host's part of the frame."""
+"""Stages of a frame as the figures show them: kernels that do one job together, and the host's part of the frame.
+
+The statistics say what a kernel's job is and which program it is in: keys `job` and `program` of each entry of
+`stages`.
+"""
 import collections
 import pathlib
 import re
 
-# Kernels as `--stats` and `--trace` name them; a kernel that is not listed is a stage of its own.
-KERNELS = {"raygen": ["raygen"], "intersect": ["intersect"], "shade": ["shade", "shade_light"],
-           "compact": ["compact_count", "scan_chunks", "compact_shadow", "compact_impulse", "find_long_runs"],
-           "occlude": ["occlude"], "accumulate": ["accumulate"], "film": ["film"]}
-STAGE_OF = {kernel: stage for stage, kernels in KERNELS.items() for kernel in kernels}
-ORDER = [*KERNELS, "host"]
-SEARCHES = ("intersect", "occlude")
+# For statistics and tables of older runs alone, which have no such keys. Not to be added to.
+FORMERLY = {"raygen": ("raygen", "queues"), "intersect": ("intersect", "searches"), "shade": ("shade", "shading"),
+            "compact_count": ("compact", "queues"), "scan_chunks": ("compact", "queues"),
+            "compact_shadow": ("compact", "queues"), "compact": ("compact", "queues"),
+            "occlude": ("occlude", "searches"), "shade_light": ("shade", "shading"),
+            "compact_impulse": ("compact", "queues"), "accumulate": ("accumulate", "queues"),
+            "find_long_runs": ("compact", "queues"), "film": ("film", "queues")}
+
+WHOLE, OUTSIDE = 0, -1  # in a column `bounce`: the whole frame; what belongs to no bounce
+HOST = "host"           # the frame without its launches
 
 
-def stageOf(kernel):
-    return STAGE_OF.get(kernel, kernel)
+def jobOf(kernel):
+    """Of an entry of the statistics."""
+    return kernel.get("job") or FORMERLY.get(kernel["name"], (kernel["name"], ""))[0]
 
 
-def grouped(stages):
-    """{stage: {launches, seconds, items, bytes}} of a list as the statistics have it. Items are those of the kernels
-    that do the stage's work on each entry; the parts of the compaction walk the same entries, so the most counts."""
+def programOf(kernel):
+    return kernel.get("program") or FORMERLY.get(kernel["name"], ("", ""))[1]
+
+
+def isSearch(row):
+    """Whether a row of a table (columns stage and program) is of rays through the tree."""
+    return (row.get("program") or FORMERLY.get(row["stage"], ("", ""))[1]) == "searches"
+
+
+def order(rows):
+    """The jobs of a table from the eye to the film, and the host's part. A table has them in the order of their first
+    launches, which is another where a batch ends early; a job that FORMERLY lacks stands behind the one it follows."""
+    there = list(dict.fromkeys(row["stage"] for row in rows))
+    found = [job for job in dict.fromkeys(job for job, _ in FORMERLY.values()) if job in there]
+    for before, job in zip([None, *there], there):
+        if job not in found:
+            found.insert(found.index(before) + 1 if before else 0, job)
+    return [*found, HOST]
+
+
+def grouped(kernels):
+    """{job: {program, launches, seconds, items, bytes}} of a list as the statistics have it. Items are those of the
+    kernels that do the job on each entry; the parts of the compaction walk the same entries, so the most counts."""
     sums = collections.OrderedDict()
-    for kernel in stages:
-        total = sums.setdefault(stageOf(kernel["name"]), {"launches": 0, "seconds": 0.0, "items": 0, "bytes": 0})
+    for kernel in kernels:
+        job = jobOf(kernel)
+        total = sums.setdefault(job, {"program": programOf(kernel), "launches": 0, "seconds": 0.0, "items": 0,
+                                      "bytes": 0})
         for key in ("launches", "seconds", "bytes"):
             total[key] += kernel.get(key, 0)
-        both = max if stageOf(kernel["name"]) == "compact" else sum
+        both = max if job == "compact" else sum
         total["items"] = both((total["items"], kernel["items"]))
     return sums
 
 
 def deviceSeconds(stats):
-    return sum(stage["seconds"] for stage in stats["stages"])
+    return sum(kernel["seconds"] for kernel in stats["stages"])
+
+
+def searchSeconds(stats):
+    return sum(kernel["seconds"] for kernel in stats["stages"] if programOf(kernel) == "searches")
 
 
 def launches(trace):
@@ -41,8 +75,12 @@ def launches(trace):
 
 
 def byBounce(stats):
-    """{bounce: stages as grouped() has them}. Bounce 1: what the eye sees; 0: what belongs to none, raygen and film."""
-    return {b["bounce"]: grouped(b["stages"]) for b in stats.get("bounces", [])}
+    """{bounce: jobs as grouped() has them}. Bounce 1: what the eye sees; 0: what belongs to none, raygen and film. The
+    facts of a kernel stand in the list of the whole frame."""
+    facts = {kernel["name"]: kernel for kernel in stats["stages"]}
+    known = {name: {key: k[key] for key in ("job", "program") if key in k} for name, k in facts.items()}
+    return {b["bounce"]: grouped([{**known.get(k["name"], {}), **k} for k in b["stages"]])
+            for b in stats.get("bounces", [])}
 
 
 class WorkGroups:

@@ -1,6 +1,9 @@
 """One look for all figures: Okabe and Ito's colours, each with a line style and a marker of its own (so that they can
-be told apart in grey), labels at the ends of the lines instead of a legend, the same bytes from the same data.
+be told apart in grey), labels at the ends of the lines instead of a legend. The same data, drawn again by the same
+matplotlib, gives the same bytes.
 """
+import io
+import re
 import sys
 
 import matplotlib
@@ -19,7 +22,9 @@ GREY = "#666666"
 LOOKS = [(BLUE, "-", "o"), (RED, "--", "s"), (GREEN, "-.", "^"), (PURPLE, (0, (1, 1.2)), "D"),
          (BLACK, (0, (6, 2)), "v"), (ORANGE, (0, (4, 1.5, 1, 1.5, 1, 1.5)), "P"), (SKY, (0, (3, 1)), "X")]
 
+matplotlib.rcdefaults()  # whatever the user's own settings are
 pyplot.rcParams.update({
+    "font.family": "DejaVu Sans", "mathtext.fontset": "dejavusans",  # matplotlib brings it along
     "font.size": 10, "axes.titlesize": 11, "axes.titlelocation": "left", "axes.titleweight": "bold",
     "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#e4e4e4",
     "grid.linewidth": 0.6, "axes.axisbelow": True, "lines.linewidth": 1.6, "lines.markersize": 4.5,
@@ -118,15 +123,22 @@ def spread(centres, heights, low=float("-inf"), high=float("inf")):
 
 
 def save(figure_, folder, name):
-    """FOLDER/figures/NAME.svg and .png."""
-    figures = folder / "figures"
-    figures.mkdir(parents=True, exist_ok=True)
+    """FOLDER/NAME.svg."""
+    folder.mkdir(parents=True, exist_ok=True)
     figure_.draw_without_rendering()
     figure_.set_layout_engine("none")  # the layout is found: once is enough, it takes longer than drawing
-    figure_.savefig(figures / f"{name}.svg", metadata={"Date": None})
-    figure_.savefig(figures / f"{name}.png")
+    text = io.StringIO()
+    figure_.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
+    (folder / f"{name}.svg").write_text(numberedClips(text.getvalue()), encoding="utf-8")
     pyplot.close(figure_)
-    print(f"drawn: figures/{name}.svg, .png", file=sys.stderr, flush=True)
+    print(f"drawn: {folder.name}/{name}.svg", file=sys.stderr, flush=True)
+
+
+def numberedClips(svg):
+    """Clip paths numbered in their order: matplotlib names them after addresses in memory."""
+    names = dict.fromkeys(re.findall(r'<clipPath id="(p[0-9a-f]{10})"', svg))
+    numbers = {name: f"clip{i}" for i, name in enumerate(names)}
+    return re.sub(r"\bp[0-9a-f]{10}\b", lambda found: numbers.get(found[0], found[0]), svg)
 
 
 def legendAbove(figure_, handles, labels, inches=0.3, **options):

@@ -57,9 +57,11 @@ def lines(folder, name, mayBeEmpty=False):
     return first, rows
 
 
-def read(folder, name, mayBeEmpty=False):
-    """The rows of FOLDER/NAME.tsv as dictionaries, numbers as numbers."""
+def read(folder, name, mayBeEmpty=False, formerly=None):
+    """The rows of FOLDER/NAME.tsv as dictionaries, numbers as numbers. formerly: what columns are called now, by the
+    names that tables of older runs have for them."""
     columns, rows = lines(folder, name, mayBeEmpty)
+    columns = [(formerly or {}).get(c, c) for c in columns]
     return [dict(zip(columns, map(parsed, row))) for row in rows]
 
 

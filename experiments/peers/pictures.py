@@ -2,7 +2,10 @@
 import json
 import subprocess
 
+from matplotlib.colors import LogNorm
 import numpy
+
+from lib import style
 
 OFF = 0.01  # of the mean radiance: a pixel beyond it sees something else, or in another light
 DARKEST, BRIGHTEST = 1e-5, 1.0  # of the difference's scale
@@ -38,9 +41,7 @@ def shown(radiance):
 
 
 def sheet(folder, name, title, ours, peers):
-    """FOLDER/figures/NAME.png: ours, theirs side by side, and below what differs. peers: label -> EXR."""
-    from lib import style
-    from matplotlib.colors import LogNorm
+    """FOLDER/NAME.png: ours, theirs side by side, and below what differs. peers: label -> EXR."""
     a = pixels(ours)
     figure, axes = style.figure(2, 1 + len(peers), height=4.1 if len(peers) > 1 else 5.6, squeeze=False)
     axes[0, 0].imshow(shown(a))
@@ -55,7 +56,6 @@ def sheet(folder, name, title, ours, peers):
     for axis in axes.flat:
         axis.axis("off")
     figure.colorbar(bar, ax=list(axes[1, 1:]), shrink=0.8, label="difference / mean radiance")
-    figures = folder / "figures"
-    figures.mkdir(parents=True, exist_ok=True)
-    figure.savefig(figures / f"{name}.png", dpi=style.pyplot.rcParams["savefig.dpi"])
+    folder.mkdir(parents=True, exist_ok=True)
+    figure.savefig(folder / f"{name}.png", dpi=style.pyplot.rcParams["savefig.dpi"])
     style.pyplot.close(figure)

@@ -10,7 +10,7 @@ except ImportError:
     print("skipped: python3-numpy is not installed")
     sys.exit(77)
 
-from lib import e9_analysis as e9  # noqa: E402
+from e9_error import analysis as e9  # noqa: E402
 
 MEAN = 0.5
 
@@ -47,9 +47,9 @@ class Analysis(unittest.TestCase):
         self.assertEqual(len(e9.looks(curves)), 7)
         self.assertEqual([p[0] for p in e9.curve(data(curves), "room", "random")], [1, 2, 4, 8, 16, 32, 64])
 
-    def test_the_front_leaves_out_what_is_beaten_or_hardly_better(self):
+    def test_the_pareto_front_leaves_out_what_is_beaten_or_hardly_better(self):
         points = [(1, 0.9), (2, 0.5), (2.5, 0.6), (3, 0.49), (4, 0.3)]
-        self.assertEqual(e9.front(points, lambda p: p), [(1, 0.9), (2, 0.5), (4, 0.3)])
+        self.assertEqual(e9.paretoFront(points, lambda p: p), [(1, 0.9), (2, 0.5), (4, 0.3)])
 
     def test_calibration_is_true_over_estimated(self):
         rows = e9.calibration(data(run("sobol", 1, 64, lambda n: n**-0.75, estimate=2.0)))

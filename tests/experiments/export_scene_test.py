@@ -34,8 +34,10 @@ INDICES = (0, 1, 2, 0, 2, 3)
 NODES = [
     {"mesh": 0, "scale": [1, 1, 3], "translation": [0, 0, -5], "children": [1]},
     # Below a stretched node mirrored and turned by 45 degrees about Y: its normals follow the inverse transpose.
-    {"mesh": 0, "scale": [-2, 1, 1], "rotation": [0, math.sin(math.pi / 8), 0, math.cos(math.pi / 8)], "translation": [0, 0, 1]},
-    {"mesh": 1, "matrix": [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 3, 4, 5, 1]},  # columns: -90 degrees about X, then (3, 4, 5)
+    {"mesh": 0, "scale": [-2, 1, 1], "rotation": [0, math.sin(math.pi / 8), 0, math.cos(math.pi / 8)],
+     "translation": [0, 0, 1]},
+    # Columns: -90 degrees about X, then (3, 4, 5).
+    {"mesh": 1, "matrix": [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 3, 4, 5, 1]},
     {"rotation": [0, TURN, 0, TURN], "translation": [10, 0, 0], "children": [4]},  # 90 degrees about Y
     {"camera": 0, "rotation": [TURN, 0, 0, TURN], "translation": [0, 2, 0]},  # 90 about X: looks up
     {"translation": [1, 2, 3], "extensions": {"KHR_lights_punctual": {"light": 0}}},
@@ -73,12 +75,13 @@ def sceneFile(folder):
     text += b" " * (-len(text) % 4)
     file = folder / "own.glb"
     file.write_bytes(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(binary)) +
-                     struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) + binary)
+                     struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) +
+                     binary)
     return file
 
 
 def expectedDirection(x, y):
-    """Back through glTF's projection matrix, at the picture's aspect ratio: a point of clip space with z = -1, w = 1."""
+    """Back through glTF's projection matrix, at the picture's aspect ratio: clip space, z = -1, w = 1."""
     near, t = 0.1, math.tan(0.5 * YFOV)
     inCamera = numpy.array([(2 * x / WIDTH - 1) * WIDTH / HEIGHT * t * near, (1 - 2 * y / HEIGHT) * t * near, -near])
     world = numpy.column_stack([RIGHT, UP, numpy.negative(FORWARD)]) @ inCamera
@@ -132,7 +135,8 @@ class ExportScene(unittest.TestCase):
         right, up, forward = (povVector(self.pov, name) for name in ("right", "up", "direction"))
         self.assertClose(povVector(self.pov, "location"), (10, 2, 0))
         for x, y in self.PIXELS:
-            self.assertClose(unit(forward + (x / WIDTH - 0.5) * right + (0.5 - y / HEIGHT) * up), expectedDirection(x, y))
+            direction = forward + (x / WIDTH - 0.5) * right + (0.5 - y / HEIGHT) * up
+            self.assertClose(unit(direction), expectedDirection(x, y))
 
     def testEyeRaysOfBlender(self):
         """A point of the sensor seen from the centre of the lens; the camera looks along -Z of its matrix."""

@@ -36,8 +36,7 @@ class NothingToDraw(unittest.TestCase):
         for name in run.modules():
             with self.subTest(name), tempfile.TemporaryDirectory() as folder:
                 out = pathlib.Path(folder)
-                (out / "data").mkdir()
-                file = fill(out / "data")
+                file = fill(out / run.modules()[name])
                 status, said = plotted(name, out)
                 self.assertEqual((status, said.count("\n")), (2, 1), said)
                 self.assertRegex(said, rf"^{name}: .*{file}.*`experiments/run {name} --out {out}` measures it")
@@ -46,9 +45,10 @@ class NothingToDraw(unittest.TestCase):
         self.check(lambda data: r"there is no .*\.tsv")
 
     def test_so_is_one_without_rows(self):
-        def headers(data):
-            for file in (EXPERIMENTS / "data").glob("*.tsv"):
-                (data / file.name).write_text(file.read_text().split("\n")[0] + "\n")
+        def headers(folder):
+            folder.mkdir()
+            for file in (EXPERIMENTS / folder.name).glob("*.tsv"):
+                (folder / file.name).write_text(file.read_text().split("\n")[0] + "\n")
             return r"\.tsv holds no rows"
         self.check(headers)
 

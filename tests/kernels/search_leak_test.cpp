@@ -1,7 +1,7 @@
 // Rays from inside closed meshes of every size at every place meet something, in every form of the search,
 // nearest hit and any hit: in random directions, along the axes, and aimed at edges and vertices. Half a
 // minute's worth would not fit the suite: WHITTLE_LEAK_RAYS=1e8 sets how many rays each form gets
-// (experiments/leaks.sh).
+// (experiments/run leaks).
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -94,7 +94,7 @@ TEST(Leaks, NoRayLeavesAClosedMesh) {
   for (std::size_t f = 0; f < searchForms().size(); ++f) {
     const LeakCount& c = counts[f];
     EXPECT_EQ(c.leaks, 0U) << searchForms()[f].name << " of " << c.rays << " rays";
-    // The lines that experiments/leaks.sh collects.
+    // The lines that experiments/checks/leaks.sh collects.
     if (asked) fmt::print("leaks\t{}\t{}\t{}\t{:.1f}\n", searchForms()[f].name, c.rays, c.leaks, c.seconds);
   }
 }

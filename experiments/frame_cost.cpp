@@ -48,7 +48,7 @@ Frame renderFrame(const Scene& scene, const Settings& settings, const Variant& v
   if (trace)
     characters = trace->toText().size();
   else if (variant.timed)
-    characters = cli::profileTable(stats).size();
+    characters = profileTable(stats).size();
   Frame frame{stats.time.render, 0.0, 0};
   // A text that nobody looks at might never be made.
   if (characters > 0) frame.after = std::chrono::duration<double>(Clock::now() - rendered).count();

@@ -27,6 +27,7 @@ Value vectorValue(const V& v) {
 template <class V>
 std::vector<double> vectorOf(const V& v) {
   std::vector<double> out;
+  out.reserve(v.length());
   for (int i = 0; i < v.length(); ++i) out.push_back(static_cast<double>(v[i]));
   return out;
 }

@@ -1,7 +1,6 @@
 // See gltf_uri.h.
 #include "gltf/uri.h"
 
-#include <array>
 #include <cctype>
 #include <cstdint>
 

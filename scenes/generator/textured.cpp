@@ -1,6 +1,7 @@
 // Covers what materials can ask for: textures with two sets of coordinates, a normal map, cut-outs (MASK),
 // see-through (BLEND) and vertex colours.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "png.h"

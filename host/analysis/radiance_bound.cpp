@@ -27,7 +27,6 @@
 namespace whittle {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Shares of single precision may sum to a little more than 1 at each hit.
 constexpr double kRounding = 1 + 1e-5;
 
@@ -35,10 +34,10 @@ constexpr double kRounding = 1 + 1e-5;
 double times(double share, double radiance) { return share == 0 ? 0 : share * radiance; }
 
 /// The ends of a factor's range: a texture may scale it down to 0.
-struct Range {
+struct Interval {
   double low, high;
 };
-Range rangeOf(float factor, bool textured) {
+Interval rangeOf(float factor, bool textured) {
   const double high = std::clamp(static_cast<double>(factor), 0.0, 1.0);
   return {textured ? 0 : high, high};
 }
@@ -49,7 +48,7 @@ struct Surface {
   glm::dvec3 color{0};      ///< of its metal and of what it lets through
   glm::dvec3 matte{0};      ///< direct light that Lambert's part would return, were it all
   glm::dvec3 highlight{0};  ///< the same for the microfacet lobe
-  Range metallic{0, 0}, transmission{0, 0};
+  Interval metallic{0, 0}, transmission{0, 0};
   double specular = 0;
   bool smooth = false, rough = false, volume = false, blends = false;
 };
@@ -77,10 +76,10 @@ Surface surfaceOf(const Material& m, double mirrorRoughness, const glm::dvec3& v
   s.color = glm::dvec3(m.baseColor) * vertexColor;
   s.blends = m.alphaMode == AlphaMode::Blend;
   s.own = m.unlit ? s.color : glm::dvec3(m.emission);
-  if (!isUsual(m, s.color)) s.own = glm::dvec3(kInfinity);
+  if (!isUsual(m, s.color)) s.own = glm::dvec3(std::numeric_limits<double>::infinity());
   if (m.unlit) return s;
   const bool textured = m.metallicRoughnessTexture.used();
-  const Range roughness = rangeOf(m.roughness, textured);
+  const Interval roughness = rangeOf(m.roughness, textured);
   s.smooth = roughness.low < mirrorRoughness;
   s.rough = !(roughness.high < mirrorRoughness);
   s.metallic = rangeOf(m.metallic, textured);
@@ -170,7 +169,8 @@ double meanRadiance(const FloatImage& radiance) {
   glm::dvec3 sum(0);
   for (std::size_t i = 0; i + 2 < radiance.pixels.size(); i += 3)
     sum += glm::dvec3(radiance.pixels[i], radiance.pixels[i + 1], radiance.pixels[i + 2]);
-  return std::max(sum.x, std::max(sum.y, sum.z)) / static_cast<double>(radiance.pixels.size() / 3);
+  const std::size_t pixels = radiance.pixels.size() / 3;
+  return std::max(sum.x, std::max(sum.y, sum.z)) / static_cast<double>(pixels);
 }
 
 double cutOffThroughput(const Settings& settings, const std::vector<std::uint64_t>& cutOff) {

@@ -152,6 +152,7 @@ class Bench {
   void measure(const RaySet& rays, const std::vector<QueryRunner*>& chosen, const std::string& query) {
     const bool nearest = query == "nearest";
     std::vector<Runner> runners;
+    runners.reserve(chosen.size() + modes_.size());
     for (QueryRunner* k : chosen) runners.push_back({[=] { return nearest ? k->nearest() : k->any(); }, {}});
     for (const EmbreeMode& m : modes_) {
       EmbreeBaseline* e = m.robust ? robust_.get() : fast_.get();

@@ -2,8 +2,6 @@
 // that neither huge nor tiny coordinates overflow or vanish.
 #include "bvh/bins.h"
 
-#include <algorithm>
-
 namespace whittle {
 
 BinMap::BinMap(const Box4& centroids, int binCount) : origin(centroids.lo), scale(splat4(0)), bins(binCount) {

@@ -5,7 +5,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -13,8 +12,6 @@
 
 namespace whittle {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// A part of the tree that one task made. Node indices in it count from its own first node.
 struct Part {

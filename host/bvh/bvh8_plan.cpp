@@ -13,8 +13,6 @@
 namespace whittle {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 /// What visiting a node and testing a leaf cost, in visits; measured on one core with 8-lane vectors.
 constexpr float kNodeCost = 1.0F, kLeafCost = 1.5F;
 

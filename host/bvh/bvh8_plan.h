@@ -12,6 +12,7 @@
 namespace whittle {
 
 inline constexpr std::uint32_t kLanes = 8;
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr std::int32_t kBvh8Task = 4096;  ///< two-wide nodes of a subtree that is worth a task
 
 /// A subtree of the two-wide tree: child `side` of node `parent`.

@@ -3,7 +3,6 @@
 #include "bvh/partition.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "bvh/chunks.h"

@@ -19,9 +19,10 @@ inline void adviseLargePages([[maybe_unused]] void* p, [[maybe_unused]] std::siz
 #ifdef MADV_HUGEPAGE
   constexpr std::size_t kPage = std::size_t{1} << 12, kLarge = std::size_t{1} << 21;
   if (bytes < 2 * kLarge) return;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(p) + kPage - 1) & ~(kPage - 1);
-  const auto end = (reinterpret_cast<std::uintptr_t>(p) + bytes) & ~(kPage - 1);
-  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  const auto address = reinterpret_cast<std::uintptr_t>(p);
+  const auto begin = (address + kPage - 1) & ~(kPage - 1);
+  const auto end = (address + bytes) & ~(kPage - 1);
+  madvise(static_cast<char*>(p) + (begin - address), end - begin, MADV_HUGEPAGE);
 #endif
 }
 

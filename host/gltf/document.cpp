@@ -141,6 +141,29 @@ void readFromUri(Document& document, int buffer, const std::string& uri, std::ui
   }
 }
 
+/// The bytes of a buffer, at least its byteLength of them. Throws InputError.
+std::span<const std::byte> bufferData(Document& document, int buffer) {
+  const auto i = static_cast<std::size_t>(buffer);
+  const Json& description = document.json["buffers"][i];
+  const auto length = description["byteLength"].get<std::uint64_t>();
+  std::span<const std::byte> data;
+  if (!description.contains("uri")) {
+    if (buffer != 0 || !document.hasBinary) document.fail(fmt::format("buffer {} has no data", buffer));
+    data = document.binary;
+  } else {
+    if (!document.bufferRead[i]) {
+      readFromUri(document, buffer, description["uri"].get_ref<const std::string&>(), length,
+                  document.bufferBytes[i]);
+      document.bufferRead[i] = true;
+    }
+    data = document.bufferBytes[i];
+  }
+  if (data.size() < length) {
+    document.fail(fmt::format("buffer {} is too short: {} bytes of {}", buffer, data.size(), length));
+  }
+  return data.first(static_cast<std::size_t>(length));
+}
+
 }  // namespace
 
 void Document::fail(std::string_view what) const {
@@ -170,28 +193,6 @@ void openDocument(Document& document, const std::filesystem::path& path, Notices
   readDescription(document);
   document.bufferBytes.resize(child(document.json, "buffers").size());
   document.bufferRead.resize(document.bufferBytes.size());
-}
-
-std::span<const std::byte> bufferData(Document& document, int buffer) {
-  const auto i = static_cast<std::size_t>(buffer);
-  const Json& description = document.json["buffers"][i];
-  const auto length = description["byteLength"].get<std::uint64_t>();
-  std::span<const std::byte> data;
-  if (!description.contains("uri")) {
-    if (buffer != 0 || !document.hasBinary) document.fail(fmt::format("buffer {} has no data", buffer));
-    data = document.binary;
-  } else {
-    if (!document.bufferRead[i]) {
-      readFromUri(document, buffer, description["uri"].get_ref<const std::string&>(), length,
-                  document.bufferBytes[i]);
-      document.bufferRead[i] = true;
-    }
-    data = document.bufferBytes[i];
-  }
-  if (data.size() < length) {
-    document.fail(fmt::format("buffer {} is too short: {} bytes of {}", buffer, data.size(), length));
-  }
-  return data.first(static_cast<std::size_t>(length));
 }
 
 std::span<const std::byte> viewData(Document& document, int view) {

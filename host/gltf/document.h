@@ -40,11 +40,11 @@ struct Document {
   [[noreturn]] void fail(std::string_view what) const;
 };
 
+/// A checked index of the file as C++ has it.
+inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
 /// Reads, splits, parses and checks `path`. Throws InputError; notes what is not supported and not required.
 void openDocument(Document& document, const std::filesystem::path& path, Notices& notices);
-
-/// The bytes of a buffer, at least its byteLength of them. Throws InputError.
-std::span<const std::byte> bufferData(Document& document, int buffer);
 
 /// The bytes of a buffer view, checked against its buffer. Throws InputError.
 std::span<const std::byte> viewData(Document& document, int view);

@@ -21,8 +21,6 @@ namespace gltf {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// The materials of everything that will be drawn; -1 is the default one.
 std::set<int> usedMaterials(const Document& document, const Hierarchy& hierarchy) {
   std::set<int> used;

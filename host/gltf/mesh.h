@@ -3,7 +3,6 @@
 
 #include <glm/glm.hpp>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "gltf/document.h"

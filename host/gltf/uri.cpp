@@ -1,7 +1,6 @@
 // URIs of buffers and images: base64, percent signs, files beside the scene.
 #include "gltf/uri.h"
 
-#include <array>
 #include <cctype>
 #include <cstdint>
 

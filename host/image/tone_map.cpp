@@ -30,7 +30,7 @@ std::uint8_t encodeByte(const CodeBorders& borders, double v) {
 
 /// Writes one pixel; false if it was not finite.
 bool mapPixel(const CodeBorders& borders, const float* in, int channels, double scale, std::uint8_t* out) {
-  const int step = channels >= 3 ? 1 : 0;
+  const std::size_t step = channels >= 3 ? 1 : 0;
   std::array<double, 3> c{};
   double peak = 0;
   for (int k = 0; k < 3; ++k) {

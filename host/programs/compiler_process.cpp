@@ -41,6 +41,7 @@ std::function<void()> startCompilerProcess(const std::filesystem::path& binary, 
   std::vector<std::string> words = commandLine(job);
   words.insert(words.begin(), {binary.string(), kCompilerCommand});
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   posix_spawn_file_actions_t quiet;

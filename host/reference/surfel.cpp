@@ -85,8 +85,7 @@ double relativeIndex(const Material& material, bool front) {
   return front || !material.volume || ior == 0 ? ior : 1 / ior;
 }
 
-}  // namespace
-
+/// Base colour and coverage at a hit; coverage as the alpha mode has it (1 for opaque, unchanged for MASK).
 Vec4 baseColorAt(const Scene& scene, const Hit& hit) {
   const Material& material = materialOf(scene, hit);
   Vec4 color = Vec4(material.baseColor) * textureAt(scene, material.baseColorTexture, hit, Encoding::Srgb) *
@@ -94,6 +93,8 @@ Vec4 baseColorAt(const Scene& scene, const Hit& hit) {
   color.a = material.alphaMode == AlphaMode::Opaque ? 1.0 : std::clamp(color.a, 0.0, 1.0);
   return color;
 }
+
+}  // namespace
 
 bool passesMask(const Scene& scene, const Hit& hit) {
   const Material& material = materialOf(scene, hit);

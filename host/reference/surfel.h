@@ -31,9 +31,6 @@ struct Surfel {
 Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIndex& triangles,
                   const Ray& ray, const Hit& hit);
 
-/// Base colour and coverage at a hit; coverage as the alpha mode has it (1 for opaque, unchanged for MASK).
-Vec4 baseColorAt(const Scene& scene, const Hit& hit);
-
 /// Whether the alpha mask leaves this hit standing.
 bool passesMask(const Scene& scene, const Hit& hit);
 

@@ -2,7 +2,6 @@
 #include "reference/trace.h"
 
 #include <array>
-#include <limits>
 
 #include "reference/camera.h"
 #include "reference/lights.h"

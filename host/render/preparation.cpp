@@ -95,7 +95,7 @@ namespace {
 std::uint32_t queueCapacity(const Settings& s) {
   const std::uint64_t samples = static_cast<std::uint64_t>(s.width) * s.height * s.raysPerPixel;
   const std::uint64_t wanted = std::min<std::uint64_t>(static_cast<std::uint64_t>(s.wavefront), 2 * samples);
-  return static_cast<std::uint32_t>((std::max<std::uint64_t>(wanted, 2 * LONG_RUN) + 63) / 64 * 64);
+  return static_cast<std::uint32_t>((std::max(wanted, std::uint64_t{2} * LONG_RUN) + 63) / 64 * 64);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 
 #include <cerrno>
 #include <stdexcept>
-#include <string>
 #include <system_error>
 
 #include "scene/input_error.h"

@@ -11,8 +11,6 @@
 namespace whittle {
 namespace {
 
-void copy3(float* out, const glm::vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
-
 /// A vector as the sum of two float vectors. volatile: GCC 12 at -O3 otherwise takes the three differences
 /// for 0 (its vectoriser drops the rounding to float and back; gone with -fno-tree-slp-vectorize).
 void split3(float* high, float* low, const glm::dvec3& v) {
@@ -27,8 +25,8 @@ void split3(float* high, float* low, const glm::dvec3& v) {
 
 device::DeviceCamera cameraToDevice(const Camera& camera, const Settings& s) {
   device::DeviceCamera d{};
-  copy3(d.position, camera.position);
-  copy3(d.forward, camera.forward);
+  for (int i = 0; i < 3; ++i) d.position[i] = camera.position[i];
+  for (int i = 0; i < 3; ++i) d.forward[i] = camera.forward[i];
   const double half = camera.orthographic ? camera.ymag : std::tan(0.5 * static_cast<double>(camera.yfov));
   const double step = half / s.height;  // pixels are square
   split3(d.stepX, d.stepXLow, step * glm::dvec3(camera.right));

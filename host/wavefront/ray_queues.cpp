@@ -42,8 +42,8 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
     const bool cutOff = features.has(Feature::CUTOFF);
     flagBytes_ = cutOff ? sizeof(std::uint32_t) : sizeof(std::uint8_t);  // EntryFlags, lib/entry_flags.cl
     flags = compute.allocate("flags", (std::size_t{capacity} + QUEUE_PADDING) * flagBytes_);
-    totals =
-        compute.allocate("totals", (cutOff ? 3 : 2) * (capacity / compactChunk + 1) * sizeof(std::uint32_t));
+    const std::size_t chunks = capacity / compactChunk + 1;
+    totals = compute.allocate("totals", (cutOff ? 3 : 2) * chunks * sizeof(std::uint32_t));
     sums = compute.allocate("sums", (cutOff ? 4 : 2) * sizeof(std::uint32_t));
   }
 }

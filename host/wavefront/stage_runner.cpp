@@ -103,6 +103,7 @@ std::vector<BounceStats> StageRunner::statsByBounce() {
     bounces[bounce].stages.push_back(stats);
   }
   std::vector<BounceStats> list;
+  list.reserve(bounces.size());
   for (auto& [number, bounce] : bounces) list.push_back(std::move(bounce));
   return list;
 }

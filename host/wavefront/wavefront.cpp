@@ -71,7 +71,7 @@ bool Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t boun
     const double to = share.from + (share.to - share.from) * segment.end / count;
     // The queue of the last segment is free before the next bounce: two queues serve a path that is never
     // cut.
-    if (segment.end == count) queues_.release(std::move(queue));
+    if (segment.end == count) queues_.release(std::exchange(queue, {}));
     if (nextCount > 0)
       whole = traceQueue(std::move(next), nextCount, bounce + 1, {from, to});
     else if (next)

@@ -1,6 +1,8 @@
 // Emission: five neon rings from dim to bright over a polished dark floor, with a mirror ball. The room
 // has no other light worth the name, so what is seen is emission and its reflections; that an emitter lights
 // nothing around it is part of the model.
+#include <array>
+
 #include "scenes.h"
 
 namespace generator {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -27,6 +26,7 @@ Value vectorValue(const V& v) {
 template <class V>
 std::vector<double> vectorOf(const V& v) {
   std::vector<double> out;
+  out.reserve(v.length());
   for (int i = 0; i < v.length(); ++i) out.push_back(static_cast<double>(v[i]));
   return out;
 }

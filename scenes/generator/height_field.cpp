@@ -1,7 +1,7 @@
 // Hills out of fractal value noise (Perlin & Hoffert 1989's sum of octaves over a lattice of hashed
 // integers). Additions and multiplications only, so every machine gets the same bits. Reads nothing; 2n²
 // triangles up to n = 4096 (33 million).
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "hash.h"

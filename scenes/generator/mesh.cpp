@@ -1,6 +1,7 @@
 // Shapes. Computed in double and rounded once, so that the bytes do not hang on the last bit of sin and cos.
 #include "mesh.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>

@@ -2,7 +2,6 @@
 // Local space, metres, right-handed, +Y up, counter-clockwise from the front, as in glTF 2.0.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>

@@ -1,5 +1,7 @@
 // Shadow: three lights, red, green and blue, make white where all arrive; each shadow has the colour of
 // the other two. The big ball right behind the lights casts none: shadow rays end at the light.
+#include <array>
+
 #include "scenes.h"
 
 namespace generator {

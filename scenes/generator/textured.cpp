@@ -1,6 +1,7 @@
 // Covers what materials can ask for: textures with two sets of coordinates, a normal map, cut-outs (MASK),
 // see-through (BLEND) and vertex colours.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "png.h"
@@ -11,7 +12,9 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-std::uint8_t toByte(double v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0, 1.0) * 255 + 0.5); }
+std::uint8_t toByte(double v) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0, 1.0) * 255));
+}
 
 /// Calls color(u, v) for the centre of each texel.
 template <class F>

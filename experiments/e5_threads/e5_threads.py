@@ -83,7 +83,7 @@ def measureFrames(context, counts, runs):
 
 def writeLaunches(out, scene, stats, one, every):
     """The same launches in every run, whatever the number of threads: medians over the runs."""
-    groups, facts = stages.WorkGroups(ROOT, stats), {s["name"]: s for s in stats["stages"]}
+    groups, facts = stages.WorkGroups(stats), {s["name"]: s for s in stats["stages"]}
     for i, (kernel, bounce, items, _) in enumerate(one[0]):
         seconds = [statistics.median(run[i][3] for run in runs) for runs in (one, every)]
         out.row(scene=scene, stage=stages.jobOf(facts[kernel]), program=stages.programOf(facts[kernel]), bounce=bounce,

@@ -1,11 +1,9 @@
 """Stages of a frame as the figures show them: kernels that do one job together, and the host's part of the frame.
 
-The statistics say what a kernel's job is and which program it is in: keys `job` and `program` of each entry of
-`stages`.
+The statistics say what a kernel's job is, which program it is in and how many items a work item takes: keys `job`,
+`program` and `perWorkItem` of each entry of `stages` (host/wavefront/stages.h).
 """
 import collections
-import pathlib
-import re
 
 # For statistics and tables of older runs alone, which have no such keys. Not to be added to.
 FORMERLY = {"raygen": ("raygen", "queues"), "intersect": ("intersect", "searches"), "shade": ("shade", "shading"),
@@ -84,18 +82,12 @@ def byBounce(stats):
 
 
 class WorkGroups:
-    """How many work-groups a launch has: its items, by how many of them a work item handles."""
+    """How many work-groups a launch has: its items, by how many of them a work item handles (`perWorkItem`)."""
 
-    def __init__(self, root, stats):
-        text = (pathlib.Path(root) / "kernels" / "shared" / "features.h").read_text()
-        number = {name: int(value) for name, value in re.findall(r"#define (\w+) (\d+)", text)}
-        packets = "packets of sixteen rays" in stats["features"]["used"]
-        lane, packet = (number["ENTRY_LANES"], number["PACKET_RAYS"]) if packets else (1, 1)
-        chunk = number["COMPACT_CHUNK"]
+    def __init__(self, stats):
         self.size = stats["settings"]["workGroup"]
-        self.perWorkItem = {"intersect": packet, "occlude": packet, "raygen": lane, "shade": lane, "shade_light": lane,
-                            "film": lane, "compact_count": chunk, "compact_shadow": chunk, "compact_impulse": chunk}
+        self.perWorkItem = {kernel["name"]: kernel["perWorkItem"] for kernel in stats["stages"]}
 
     def count(self, kernel, items):
-        workItems = -(-items // self.perWorkItem.get(kernel, 1))
+        workItems = -(-items // self.perWorkItem[kernel])
         return -(-workItems // self.size)

@@ -1,7 +1,7 @@
 """How far should rays start off the surface they leave, and along what?
 
 Held constant: scenes (lib/bump_scenes.py), whose pictures are known beforehand, so that whatever else comes out was the
-bump's doing. Varied: the bump, by another kernels/lib/ray_offset.cl (bumps/) or a fixed length; the scene's size, 1e-6 to
+bump's doing. Varied: the bump, by another kernels/lib/surface/ray_offset.cl (bumps/) or a fixed length; the scene's size, 1e-6 to
 1e8 m at the origin, and its distance from the origin, up to 1e4 times its size. Counted at each: acne (light lost on
 convex bodies), mirror and air (rays that leave one and meet it again), leak (lit pixels in a closed room), the smallest
 gap whose shadow and mirror image are whole. Frames of two scenes are timed in turn, with what each needs compiled.
@@ -23,7 +23,7 @@ from peers.pictures import pixels
 
 @dataclasses.dataclass(frozen=True)
 class Variant:
-    """A bump: the file that replaces kernels/lib/ray_offset.cl, and a fixed length where it has one: metres, or heights."""
+    """A bump: the file that replaces kernels/lib/surface/ray_offset.cl, and a fixed length where it has one: metres, or heights."""
     name: str
     file: str | None = None
     metres: float | None = None
@@ -65,12 +65,12 @@ TIMED = {"cornell_box": lambda c: SCENES / "cornell_box.glb", "height_field_256"
 
 
 def kernelFolder(context, name):
-    """The program's kernels with bumps/NAME.cl in the place of lib/ray_offset.cl, which it may include as default_ray_offset.cl."""
+    """The program's kernels with bumps/NAME.cl in the place of lib/surface/ray_offset.cl, which it may include as default_ray_offset.cl."""
     folder = context.folder / f"kernels_{name}"
     if not folder.exists():
         shutil.copytree(ROOT / "kernels", folder)
-        shutil.copy(folder / "lib" / "ray_offset.cl", folder / "lib" / "default_ray_offset.cl")
-        shutil.copy(ROOT / "experiments" / "bumps" / f"{name}.cl", folder / "lib" / "ray_offset.cl")
+        shutil.copy(folder / "lib" / "surface" / "ray_offset.cl", folder / "lib" / "surface" / "default_ray_offset.cl")
+        shutil.copy(ROOT / "experiments" / "bumps" / f"{name}.cl", folder / "lib" / "surface" / "ray_offset.cl")
     return folder
 
 

@@ -1,7 +1,7 @@
 // intersect: the nearest hit of each ray of a segment of the ray queue. One ray for each work item, or sixteen
 // neighbouring ones (PACKETS). Writes the hit queue, distances if it has room for them; entry i of the hits belongs to
 // ray first + i. (An argument, not a feature: what asks for distances leaves the searches as they are.)
-#include "lib/traverse_packet.cl"
+#include "lib/search/traverse_packet.cl"
 
 __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const uint capacity,
                         __global const float* rays,  // [RAY_PLANES][capacity]

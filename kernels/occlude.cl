@@ -1,7 +1,7 @@
 // occlude: what of the light reaches each shadow ray's origin. Reads the shadow queue (indices of candidates), adds
 // contribution · transmittance to the entry's radiance: an entry has one shadow ray for each light round, so no two
 // work items add to the same place.
-#include "lib/traverse_packet.cl"
+#include "lib/search/traverse_packet.cl"
 
 #if HAS(PACKETS)
 /// Sixteen entries of a shadow queue that are in use.

@@ -2,12 +2,12 @@
 // entry's radiance (emission, background, light that needs no shadow ray), its shadow candidate for the first light, its
 // impulse candidates and their flags. What is written for an entry without its flag means nothing.
 // shade_light: the shadow candidate of a further light, one round for each light, so that memory does not grow with them.
-#include "lib/background.cl"
-#include "lib/bsdf.cl"
-#include "lib/ray_offset.cl"
+#include "lib/surface/background.cl"
+#include "lib/surface/bsdf.cl"
+#include "lib/surface/ray_offset.cl"
 #include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
-#include "lib/light.cl"
+#include "lib/surface/light.cl"
 #include "lib/sampler.cl"
 
 /// The rays of LANES neighbouring entries and what they hit.

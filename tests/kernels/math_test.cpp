@@ -52,7 +52,9 @@ __kernel void spot(uint n, __global const DeviceLight* light, __global const flo
 }
 )";
 
-test::KernelBench makeBench() { return test::KernelBench({"lib/fresnel.cl", "lib/light.cl"}, kKernels); }
+test::KernelBench makeBench() {
+  return test::KernelBench({"lib/surface/fresnel.cl", "lib/surface/light.cl"}, kKernels);
+}
 
 float sized(test::Rng& rng, float decades) {
   return rng.between(1, 2) * std::pow(10.0F, rng.between(-decades, decades)) *

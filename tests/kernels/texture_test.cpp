@@ -73,7 +73,7 @@ glm::dvec4 twin(const Picture& p, double u, double v, const device::DeviceTextur
 
 class TextureBench {
  public:
-  TextureBench() : bench({"lib/textures.cl", "lib/texture.cl"}, kKernels) {
+  TextureBench() : bench({"lib/surface/textures.cl", "lib/surface/texture.cl"}, kKernels) {
     for (int i = 0; i < 256; ++i)
       table_.push_back(static_cast<float>(linear(static_cast<std::uint8_t>(i), true)));
   }

@@ -71,10 +71,11 @@ class SearchBench {
     const auto features = SceneFeatures::analyse(scene, settings, {true});
     auto& program = lab.programs[features.bits()];
     if (!program())
-      program = compute_.build(
-          assembleKernelSource({"intersect.cl", "occlude.cl", "lib/ray_offset.cl"}, testKernelFolder()) +
-              "#line 1 \"test kernels\"\n" + testKernels,
-          buildOptions(features.bits(), 1024));
+      program =
+          compute_.build(assembleKernelSource({"intersect.cl", "occlude.cl", "lib/surface/ray_offset.cl"},
+                                              testKernelFolder()) +
+                             "#line 1 \"test kernels\"\n" + testKernels,
+                         buildOptions(features.bits(), 1024));
     stages.emplace(compute_, std::vector{program}, kWorkGroup);
     std::vector<glm::uvec3> corners;
     for (const Triangle& t : scene.triangles) corners.emplace_back(t.v0, t.v1, t.v2);

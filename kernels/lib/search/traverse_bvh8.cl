@@ -1,7 +1,7 @@
 // Searches for one ray at a time through the eight-wide tree: one ray against eight boxes, or eight triangles, in the
 // lanes of a float8. For rays that share no way, where a packet would drag the others along. The arithmetic of a lane is
 // that of the other searches, so the answers are the same bits.
-#include "lib/bvh8.cl"
+#include "lib/search/bvh8.cl"
 
 #if HAS(TREE) && HAS(PACKETS)
 

@@ -1,7 +1,7 @@
 // The surfels of the LANES hits of a work item: what shading needs to know of the surface, evaluated from vertices,
 // material and textures. Conventions: host/reference/README.md.
-#include "lib/fresnel.cl"
-#include "lib/textures.cl"
+#include "lib/surface/fresnel.cl"
+#include "lib/surface/textures.cl"
 
 typedef struct {
   Real3 position;   // world, m

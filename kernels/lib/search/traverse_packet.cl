@@ -5,8 +5,8 @@
 // directions are held against eight boxes in the lanes of a float8 (interval arithmetic; Boulos, Wald, Shirley, "Geometric
 // and Arithmetic Culling Methods for Entire Ray Packets", 2006), then sixteen rays against each box that is left, and only
 // triangles whose own boxes the bounds meet are tested. Rays that share no way are walked one by one.
-#include "lib/packet.cl"
-#include "lib/traverse_bvh8.cl"
+#include "lib/search/packet.cl"
+#include "lib/search/traverse_bvh8.cl"
 
 #if HAS(PACKETS)
 

@@ -1,8 +1,8 @@
 // Searches for one ray: the nearest triangle, and what a shadow ray meets; through the tree or through every triangle.
 // Ties go to the lowest primitive index, so every search gives the same answer. Box test after Williams et al. 2005
 // with the far distance widened (Ize 2013), so that rounding cannot hide a triangle.
-#include "lib/surfel.cl"
-#include "lib/triangle.cl"
+#include "lib/surface/surfel.cl"
+#include "lib/search/triangle.cl"
 
 // What the triangle test takes must not be lost to its box. Relative to t, two box distances are off by 3 roundings each, a
 // corner sheared onto the ray by 12 on each of two axes, which makes 30 · 2^-24, and t itself by 15: 32 covers either.

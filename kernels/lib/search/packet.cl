@@ -1,6 +1,6 @@
 // Sixteen neighbouring rays, one in each lane of a float16, and what one triangle does to them. The arithmetic of a lane is
 // that of a single ray (triangle.cl, traverse_bvh2.cl), bit for bit.
-#include "lib/traverse_bvh2.cl"
+#include "lib/search/traverse_bvh2.cl"
 
 #if HAS(PACKETS)
 

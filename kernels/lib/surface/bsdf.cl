@@ -1,6 +1,6 @@
 // Scattering at surfels: the finite part (Lambert and the glTF microfacet lobe) for direct light, and the impulses
 // (mirror reflection, refraction, straight transmission). Formulas: host/reference/README.md.
-#include "lib/surfels.cl"
+#include "lib/surface/surfels.cl"
 
 INLINE Mask isSmooth(const RenderConstants* constants, const Surfel* s) { return s->roughness < constants->mirrorRoughness; }
 

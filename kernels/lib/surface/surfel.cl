@@ -1,7 +1,7 @@
 // A point of a triangle: where it lies, its texture coordinates, its base colour, and what of the light it lets through:
 // what searches ask where a surface may be missing or see-through. Conventions: host/reference/README.md.
-#include "lib/fresnel.cl"
-#include "lib/texture.cl"
+#include "lib/surface/fresnel.cl"
+#include "lib/surface/texture.cl"
 
 #if HAS(ALPHA_MASK) || HAS(FILTERED_SHADOWS)
 /// Where in its triangle a hit lies. Low parts: what b1 and b2 lost to rounding, 0 where nobody asked.

@@ -36,7 +36,7 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
 #else
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
-  const Ray r = makeRay(loadPlanes3(rays, capacity, RAY_O, first + i), loadPlanes3(rays, capacity, RAY_D, first + i));
+  const Ray r = makeRay(loadReal3(rays, capacity, RAY_O, first + i), loadReal3(rays, capacity, RAY_D, first + i));
   const Hit hit = nearestSingle(&scene, &r);
   if (hitPlanes > HIT_T) hits[HIT_T * stride + i] = hit.t;
   hits[HIT_TRIANGLE * stride + i] = as_float(hit.triangle);

@@ -6,7 +6,7 @@
 typedef uint EntryFlags;
 INLINE Natural loadFlags(__global const EntryFlags* flags) { return LOAD(flags); }
 INLINE void storeFlags(Natural found, __global EntryFlags* flags) { STORE(found, flags); }
-#elif HAS(PACKETS)
+#elif LANES == ENTRY_LANES
 typedef uchar EntryFlags;
 INLINE Natural loadFlags(__global const EntryFlags* flags) { return convert_uint8(LOAD(flags)); }
 INLINE void storeFlags(Natural found, __global EntryFlags* flags) { STORE(convert_uchar8(found), flags); }

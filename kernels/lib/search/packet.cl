@@ -73,7 +73,7 @@ float16 clampToBox16(const Packet* p, __global const float* triangle, uint strid
   return t;
 }
 
-/// Lanes whose largest axis is kz and that meet a triangle at 0 < t <= tMax. Its coordinates: corner k, axis a at
+/// intersectTriangle for sixteen rays: lanes whose largest axis is kz and that meet a triangle at 0 < t <= tMax. Its coordinates: corner k, axis a at
 /// triangle[(3 k + a) stride].
 INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint stride, int kz, float16 tMax, float16* t,
                            float16* areaV, float16* areaW, float16* area) {
@@ -90,17 +90,13 @@ INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint
   const float16 by = fma(sy, bz, triangle[(3 + ky) * stride] - oy);
   const float16 cx = fma(sx, cz, triangle[(6 + kx) * stride] - ox);
   const float16 cy = fma(sy, cz, triangle[(6 + ky) * stride] - oy);
-  const float16 u = differenceOfProducts16(cx, by, cy, bx);
-  const float16 v = differenceOfProducts16(ax, cy, ay, cx);
-  const float16 w = differenceOfProducts16(bx, ay, by, ax);
-  int16 inside = ((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f));
+  float16 u, v, w;
+  int16 inside = edgeTest16(ax, ay, bx, by, cx, cy, &u, &v, &w);
   if (p->mixed) inside &= p->kz == kz;
   if (!anyOf16(inside)) return inside;
   const float16 det = u + v + w;
-  const float16 weight = p->shear[2] / det;
-  *t = fma(u * weight, az, fma(v * weight, bz, w * weight * cz));
-  const float16 ab = fabs(az) > fabs(bz) ? fabs(az) : fabs(bz), corners = ab > fabs(cz) ? ab : fabs(cz);
-  const int16 far = corners * fabs(p->shear[2]) > FAR_CORNERS * fabs(*t);
+  int16 far;
+  *t = hitDistance16(u, v, w, det, p->shear[2], az, bz, cz, &far);
   if (anyOf16(inside & far)) *t = select(*t, clampToBox16(p, triangle, stride, *t), far);
   *areaV = v, *areaW = w, *area = det;
   return inside & (*t > 0.0f) & (*t <= tMax);
@@ -183,7 +179,7 @@ int16 filterOcclusion(const SceneView* scene, const Packet* p, uint index, int16
   }
   for (int i = 0; i < PACKET_RAYS; ++i) {
     if (!lanes[i]) continue;
-    const Ray r = makeRay((float3)(o[0][i], o[1][i], o[2][i]), (float3)(d[0][i], d[1][i], d[2][i]));
+    const Ray r = makeRay(real3(o[0][i], o[1][i], o[2][i]), real3(d[0][i], d[1][i], d[2][i]));
     uint own[3];
     for (int k = 0; k < 3; ++k) own[k] = stops[k * PACKET_RAYS + i];
     if (!testOcclusion(scene, &r, index, ends[i], own)) lanes[i] = 0;

@@ -76,8 +76,8 @@ INLINE float8 greatestDistance(float8 at, float origin, float inverseLo, float i
 }
 
 /// Eight boxes (near and far planes): mask of those that some ray of the packet may enter before tMax, and the least
-/// distance at which. Rounding is monotonic, so whatever a single ray's test lets in is let in here.
-INLINE int8 packetEntries(const PacketBounds* b, const float8* near, const float8* far, float tMax, float8* entry) {
+/// distance at which. Rounding is monotonic, so whatever a single ray's test (childEntry) lets in is let in here.
+INLINE int8 packetEntries8(const PacketBounds* b, const float8* near, const float8* far, float tMax, float8* entry) {
   const float8 nearX = leastDistance(near[0], b->nearOrigin[0], b->inverseLo[0], b->inverseHi[0]);
   const float8 nearY = leastDistance(near[1], b->nearOrigin[1], b->inverseLo[1], b->inverseHi[1]);
   const float8 nearZ = leastDistance(near[2], b->nearOrigin[2], b->inverseLo[2], b->inverseHi[2]);
@@ -96,10 +96,11 @@ INLINE int8 packetChildren(const PacketBounds* b, __global const float* node, fl
     near[a] = vload8(0, node + b->nearPlane[a]);
     far[a] = vload8(0, node + (24 + 16 * a) - b->nearPlane[a]);
   }
-  return packetEntries(b, near, far, tMax, entry);
+  return packetEntries8(b, near, far, tMax, entry);
 }
 
-/// True if some ray of the packet enters lane `child` of a node before its own tMax. For packets that run together.
+/// True if some ray of the packet enters lane `child` of a node before its own tMax, by the same fma as childEntries8. For
+/// packets that run together.
 INLINE int entersChild(const Packet* p, const PacketBounds* b, float16 tMax, __global const float* node, uint child) {
   __global const float* box = node + child;
   const float16 nearX = fma((float16)(box[b->nearPlane[0]]), p->inverse[0], p->nearBias[0]);
@@ -123,7 +124,7 @@ INLINE uint packetTriangles(const PacketBounds* b, const Leaf* leaf, float tMax)
     far[a] = b->down[a] ? lo : hi;
   }
   float8 entry;
-  return laneBits(packetEntries(b, near, far, tMax, &entry)) & leafLanes(leaf);
+  return laneBits(packetEntries8(b, near, far, tMax, &entry)) & leafLanes(leaf);
 }
 
 INLINE RayTable tableOf(const Packet* p, float16 tMax) {

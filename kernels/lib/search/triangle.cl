@@ -1,6 +1,7 @@
-// Watertight ray-triangle test, one ray (Woop, Benthin, Wald 2013). The edge functions carry the exact sign of the
-// projected areas (difference of products with two fma), so two triangles that share an edge cannot both reject.
-#include "lib/math.cl"
+// Watertight ray-triangle test (Woop, Benthin, Wald 2013): its mathematics for every width, and the test of one ray. The edge
+// functions carry the exact sign of the projected areas (difference of products with two fma), so two triangles that share
+// an edge cannot both reject.
+#include "lib/search/one_lane.cl"
 
 /// A ray with the shear that turns its largest axis into +z: o + t d.
 typedef struct {
@@ -20,10 +21,10 @@ INLINE float boxInverse(float d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign
 
 /// A ray with NaN or infinite parts meets nothing; without this test it would visit every box.
 INLINE int isFiniteRay(const Ray* r) {
-  return isFinite3((float3)(r->o[0], r->o[1], r->o[2])) && isFinite3((float3)(r->d[0], r->d[1], r->d[2]));
+  return isFinite3(real3(r->o[0], r->o[1], r->o[2])) && isFinite3(real3(r->d[0], r->d[1], r->d[2]));
 }
 
-Ray makeRay(float3 o, float3 d) {
+Ray makeRay(Real3 o, Real3 d) {
   Ray r;
   r.o[0] = o.x, r.o[1] = o.y, r.o[2] = o.z;
   r.d[0] = d.x, r.d[1] = d.y, r.d[2] = d.z;
@@ -45,15 +46,42 @@ INLINE void extent(float a, float b, float c, float* lo, float* hi) {
   *hi = c > greatest ? c : greatest;
 }
 
-INLINE float largestOfThree(float a, float b, float c) {
-  const float ab = a > b ? a : b;
-  return ab > c ? ab : c;
-}
-
 /// Corners farther along the ray's largest axis than this many times the hit make t imprecise: their rounding is not the
 /// hit's. Below it t is off by less than FAR_WIDENING takes care of.
 #define FAR_CORNERS 1.5f
 
+/// From corners (x, y) sheared onto the ray: areas u, v, w across from each corner, and whether the ray passes inside, all of
+/// them of one sign.
+#define EDGE_TEST(Float, Mask, width)                                                                            \
+  INLINE Mask edgeTest##width(Float ax, Float ay, Float bx, Float by, Float cx, Float cy, Float* u, Float* v,    \
+                              Float* w) {                                                                        \
+    *u = differenceOfProducts##width(cx, by, cy, bx);                                                            \
+    *v = differenceOfProducts##width(ax, cy, ay, cx);                                                            \
+    *w = differenceOfProducts##width(bx, ay, by, ax);                                                            \
+    return ((*u >= 0.0f) & (*v >= 0.0f) & (*w >= 0.0f)) | ((*u <= 0.0f) & (*v <= 0.0f) & (*w <= 0.0f));          \
+  }
+EDGE_TEST(float, int, )
+EDGE_TEST(float8, int8, 8)
+EDGE_TEST(float16, int16, 16)
+
+/// Distance of the hit; det: the sum of its areas, z: the corners' distances along the ray's largest axis, sz: one over the
+/// direction there. far: where t is still to be clamped to the triangle's box.
+#define HIT_DISTANCE(Float, Mask, width)                                                                         \
+  INLINE Float hitDistance##width(Float u, Float v, Float w, Float det, Float sz, Float az, Float bz, Float cz,  \
+                                  Mask* far) {                                                                   \
+    /* Weights first: area times distance would overflow from coordinates of 1e13 m on. */                       \
+    const Float weight = sz / det;                                                                               \
+    const Float t = fma(u * weight, az, fma(v * weight, bz, w * weight * cz));                                   \
+    const Float ab = fabs(az) > fabs(bz) ? fabs(az) : fabs(bz);                                                  \
+    const Float corners = ab > fabs(cz) ? ab : fabs(cz);                                                         \
+    *far = corners * fabs(sz) > FAR_CORNERS * fabs(t);                                                           \
+    return t;                                                                                                    \
+  }
+HIT_DISTANCE(float, int, )
+HIT_DISTANCE(float8, int8, 8)
+HIT_DISTANCE(float16, int16, 16)
+
+/// clampToBox8 and clampToBox16 follow it (SearchAgreement.GravelOnAPlain holds them to its bits):
 /// t kept between the distances at which the ray enters and leaves the triangle's own box; for triangles with far corners.
 /// Else t could lie before the box, and which of two triangles is nearer would depend on the order in which boxes are culled;
 /// of a triangle across an axis, a floor, t becomes exact. NaN stays NaN. First all near planes, then all far ones, so that
@@ -72,7 +100,8 @@ INLINE float clampToBox(const Ray* r, __global const DeviceTriangle* triangle, f
   return t;
 }
 
-/// True if the ray meets the triangle at 0 < t <= tMax; `hit` then holds distance and barycentrics. The host turns a
+/// True if the ray meets the triangle at 0 < t <= tMax; `hit` then holds distance and barycentrics. intersectLeaf and
+/// intersectAxis do the same for other layouts; SearchAgreement in tests/kernels holds them to the same bits. The host turns a
 /// triangle without area into a point (det 0, t not a number): rounding could open it in the plane across the ray.
 INLINE int intersectTriangle(const Ray* r, __global const DeviceTriangle* triangle, float tMax, Candidate* hit) {
   const float az = triangle->v[0][r->kz] - r->o[r->kz];
@@ -84,16 +113,12 @@ INLINE int intersectTriangle(const Ray* r, __global const DeviceTriangle* triang
   const float by = fma(-r->sy, bz, triangle->v[1][r->ky] - r->o[r->ky]);
   const float cx = fma(-r->sx, cz, triangle->v[2][r->kx] - r->o[r->kx]);
   const float cy = fma(-r->sy, cz, triangle->v[2][r->ky] - r->o[r->ky]);
-  const float u = differenceOfProducts(cx, by, cy, bx);
-  const float v = differenceOfProducts(ax, cy, ay, cx);
-  const float w = differenceOfProducts(bx, ay, by, ax);
-  const int inside = (u >= 0.0f && v >= 0.0f && w >= 0.0f) || (u <= 0.0f && v <= 0.0f && w <= 0.0f);
-  if (!inside) return 0;
+  float u, v, w;
+  if (!edgeTest(ax, ay, bx, by, cx, cy, &u, &v, &w)) return 0;
   const float det = u + v + w;
-  // Weights first: area times distance would overflow from coordinates of 1e13 m on.
-  const float weight = r->sz / det;
-  float t = fma(u * weight, az, fma(v * weight, bz, w * weight * cz));
-  if (largestOfThree(fabs(az), fabs(bz), fabs(cz)) * fabs(r->sz) > FAR_CORNERS * fabs(t)) t = clampToBox(r, triangle, t);
+  int far;
+  float t = hitDistance(u, v, w, det, r->sz, az, bz, cz, &far);
+  if (far) t = clampToBox(r, triangle, t);
   if (!(t > 0.0f && t <= tMax)) return 0;
   hit->t = t;
   hit->b1 = v / det;

@@ -1,10 +1,10 @@
-// Lanes: what one work item handles side by side, in the types Real, Natural, Mask and Real3. LANES says how many: of the
-// queues' entries eight with PACKETS (for a CPU's vectors), else one; of the surfaces that a search asks about one
+// Lanes: what one work item handles side by side, in the types Real, Natural, Mask and Real3. LANES says how many: eight
+// entries of a queue with PACKETS (for a CPU's vectors), else one. Searches ask about one surface at a time and have one lane
 // (search/one_lane.cl). Code in these types is one text for both and gives the same bits: a choice is cond ? a : b, a
 // comparison's result a Mask, combined by & | and ! only.
 //
-// Names: a number of lanes at the end (anyOf8, largest16) is the width where it is not LANES. Without one, a function in
-// these types has LANES lanes, and one in float, uint or float3 has a single value. (The 3 of dot3 counts axes.)
+// Names: an 8 or 16 at the end (anyOf8, largest16) is a width of its own, whatever LANES is. Without it a function of these
+// types has LANES lanes, and one of float, uint or float3 a single value. The 3 of dot3 counts axes.
 #include "lib/math.cl"
 
 #ifndef LANES

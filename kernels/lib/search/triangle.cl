@@ -81,11 +81,11 @@ HIT_DISTANCE(float, int, )
 HIT_DISTANCE(float8, int8, 8)
 HIT_DISTANCE(float16, int16, 16)
 
-/// clampToBox8 and clampToBox16 follow it (SearchAgreement.GravelOnAPlain holds them to its bits):
 /// t kept between the distances at which the ray enters and leaves the triangle's own box; for triangles with far corners.
 /// Else t could lie before the box, and which of two triangles is nearer would depend on the order in which boxes are culled;
 /// of a triangle across an axis, a floor, t becomes exact. NaN stays NaN. First all near planes, then all far ones, so that
-/// the order of the axes does not matter.
+/// the order of the axes does not matter. clampToBox8 and clampToBox16 follow it; SearchAgreement.GravelOnAPlain holds them to
+/// its bits.
 INLINE float clampToBox(const Ray* r, __global const DeviceTriangle* triangle, float t) {
   float far[3];
   for (int a = 0; a < 3; ++a) {

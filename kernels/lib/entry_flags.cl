@@ -1,5 +1,6 @@
-// The flags of LANES entries (ENTRY_… of layout.h) in registers and in memory: a byte for each entry, or a word where what
-// a cut-off kept back stands above them. In a file of its own: programs that do not ask are the same for either answer.
+// The flags of LANES entries (ENTRY_… of layout.h) in registers and in memory: a byte for each entry, or a word where
+// what a cut-off kept back stands above them. In a file of its own: programs that do not ask are the same for either
+// answer.
 #include "lib/lanes.cl"
 
 #if HAS(CUTOFF)

@@ -1,10 +1,10 @@
-// Lanes: what one work item handles side by side, in the types Real, Natural, Mask and Real3. LANES says how many: eight
-// entries of a queue with PACKETS (for a CPU's vectors), else one. Searches ask about one surface at a time and have one lane
-// (search/one_lane.cl). Code in these types is one text for both and gives the same bits: a choice is cond ? a : b, a
-// comparison's result a Mask, combined by & | and ! only.
+// Lanes: what one work item handles side by side, in the types Real, Natural, Mask and Real3. LANES says how many:
+// eight entries of a queue with PACKETS (for a CPU's vectors), else one. Searches ask about one surface at a time and
+// have one lane (search/one_lane.cl). Code in these types is one text for both and gives the same bits: a choice is
+// cond ? a : b, a comparison's result a Mask, combined by & | and ! only.
 //
-// Names: an 8 or 16 at the end (anyOf8, largest16) is a width of its own, whatever LANES is. Without it a function of these
-// types has LANES lanes, and one of float, uint or float3 a single value. The 3 of dot3 counts axes.
+// Names: an 8 or 16 at the end (anyOf8, largest16) is a width of its own, whatever LANES is. Without it a function of
+// these types has LANES lanes, and one of float, uint or float3 a single value. The 3 of dot3 counts axes.
 #include "lib/math.cl"
 
 #ifndef LANES
@@ -135,7 +135,8 @@ INLINE Real wordOf(const Records* r, uint word) {
 }
 
 #define WORDS_OF(Struct) ((uint)(sizeof(Struct) / 4))
-/// A null pointer need not be address 0 (in Mesa a private one is not): what counts is the distance from the struct's begin.
+/// A null pointer need not be address 0 (in Mesa a private one is not): what counts is the distance from the struct's
+/// begin.
 #define WORD_OF(Struct, field) \
   ((uint)(((__global const char*)&((__global Struct*)0)->field - (__global const char*)(__global Struct*)0) / 4))
 #define FIELD(records, Struct, field) wordOf(records, WORD_OF(Struct, field))

@@ -3,16 +3,16 @@
 #include "shared/layout.h"
 #pragma OPENCL FP_CONTRACT OFF
 
-// A work-group function of PoCL is compiled three times over, so that no helper is called once only and few would be put in
-// line; in line they take a tenth less time in shade.
+// A work-group function of PoCL is compiled three times over, so that no helper is called once only and few would be
+// put in line; in line they take a tenth less time in shade.
 #define INLINE __attribute__((always_inline))
 
 #define PI 3.14159265358979323846f
 
 INLINE float3 load3(__global const float* p) { return (float3)(p[0], p[1], p[2]); }
 
-// Searches compare eight boxes or sixteen rays at once: their functions end in the number of values side by side (lanes.cl).
-// What they compute has one text, a macro, written out for each width; `width` is empty for a single value.
+// Searches compare eight boxes or sixteen rays at once: their functions end in the number of values side by side
+// (lanes.cl). What they compute has one text, a macro, written out for each width; `width` is empty for a single value.
 
 /// a·b − c·d with the right sign and 1.5 ulp (Kahan; Jeannerod, Louvet, Muller 2013).
 #define DIFFERENCE_OF_PRODUCTS(Float, width)                                       \

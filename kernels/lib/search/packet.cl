@@ -1,5 +1,5 @@
-// Sixteen neighbouring rays, one in each lane of a float16, and what one triangle does to them. The arithmetic of a lane is
-// that of a single ray (triangle.cl, traverse_bvh2.cl), bit for bit.
+// Sixteen neighbouring rays, one in each lane of a float16, and what one triangle does to them. The arithmetic of a
+// lane is that of a single ray (triangle.cl, traverse_bvh2.cl), bit for bit.
 #include "lib/search/traverse_bvh2.cl"
 
 #if HAS(PACKETS)
@@ -73,8 +73,8 @@ float16 clampToBox16(const Packet* p, __global const float* triangle, uint strid
   return t;
 }
 
-/// intersectTriangle for sixteen rays: lanes whose largest axis is kz and that meet a triangle at 0 < t <= tMax. Its coordinates: corner k, axis a at
-/// triangle[(3 k + a) stride].
+/// intersectTriangle for sixteen rays: lanes whose largest axis is kz and that meet a triangle at 0 < t <= tMax. Its
+/// coordinates: corner k, axis a at triangle[(3 k + a) stride].
 INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint stride, int kz, float16 tMax, float16* t,
                            float16* areaV, float16* areaW, float16* area) {
   const uint kx = kz == 2 ? 0 : kz + 1;
@@ -166,7 +166,8 @@ INLINE int testNearestPacket(const SceneView* scene, const Packet* p, __global c
 }
 
 #if HAS(FILTERED_SHADOWS) || HAS(ALPHA_MASK)
-/// The lanes of `met` that triangle `index` (leaf order) blocks; the others may be dimmed. stops: [3][16], see testOcclusion.
+/// The lanes of `met` that triangle `index` (leaf order) blocks; the others may be dimmed. stops: [3][16], see
+/// testOcclusion.
 int16 filterOcclusion(const SceneView* scene, const Packet* p, uint index, int16 met, float16 tMax, uint* stops) {
   if (!(scene->triangles[index].flags & (TRIANGLE_FILTERS | TRIANGLE_MASKED))) return met;
   int lanes[PACKET_RAYS];
@@ -189,8 +190,8 @@ int16 filterOcclusion(const SceneView* scene, const Packet* p, uint index, int16
 }
 #endif
 
-/// Shadow lanes against one triangle: tMax becomes -inf where the light is now blocked. stops: [3][16], see testOcclusion.
-/// 1 if a lane met it.
+/// Shadow lanes against one triangle: tMax becomes -inf where the light is now blocked. stops: [3][16], see
+/// testOcclusion. 1 if a lane met it.
 INLINE int testOcclusionPacket(const SceneView* scene, const Packet* p, __global const float* triangle, uint stride, uint index,
                                float16* tMax, uint* stops) {
   float16 t = (float16)(0.0f), v = t, w = t, det = t;

@@ -1,5 +1,5 @@
-// What searches ask of a surface that they met: whether it is there, and how much light it lets through. The mathematics
-// is that of shading (lib/surface), in one lane.
+// What searches ask of a surface that they met: whether it is there, and how much light it lets through. The
+// mathematics is that of shading (lib/surface), in one lane.
 #include "lib/scene.cl"
 #include "lib/search/one_lane.cl"
 

@@ -4,12 +4,14 @@
 #include "lib/search/surface.cl"
 #include "lib/search/triangle.cl"
 
-// What the triangle test takes must not be lost to its box. Relative to t, two box distances are off by 3 roundings each, a
-// corner sheared onto the ray by 12 on each of two axes, which makes 30 · 2^-24, and t itself by 15: 32 covers either.
+// What the triangle test takes must not be lost to its box. Relative to t, two box distances are off by 3 roundings
+// each, a corner sheared onto the ray by 12 on each of two axes, which makes 30 · 2^-24, and t itself by 15: 32 covers
+// either.
 #define FAR_WIDENING 1.0000019f
 
-// Box distances as plane · (1/d) - o/d in one fma are off by what rounding took from o/d, besides their own rounding: half a
-// unit in its last place, and as much again where the margin is added. Four units are taken off near and added to far.
+// Box distances as plane · (1/d) - o/d in one fma are off by what rounding took from o/d, besides their own rounding:
+// half a unit in its last place, and as much again where the margin is added. Four units are taken off near and added
+// to far.
 #define BIAS_MARGIN 4.7683716e-7f
 
 typedef struct {
@@ -20,8 +22,8 @@ typedef struct {
 } Hit;
 
 /// The box test: entry distance of child c, or +inf if it is missed or lies beyond tMax. Wider ones (childEntries8,
-/// packetEntries8, entersChild) compute it another way and let in at least as much; SearchAgreement.RandomScenes, which holds
-/// searches with boxes to the one without, would see what they hide. A ray that runs in the plane of a face gives
+/// packetEntries8, entersChild) compute it another way and let in at least as much; SearchAgreement.RandomScenes, which
+/// holds searches with boxes to the one without, would see what they hide. A ray that runs in the plane of a face gives
 /// 0 · inf = NaN there, which every comparison below takes for inside.
 INLINE float childEntry(const Ray* r, __global const Node* node, int c, float tMax) {
   float entry = 0.0f, leave = tMax;
@@ -36,8 +38,8 @@ INLINE float childEntry(const Ray* r, __global const Node* node, int c, float tM
   return entry <= leave * FAR_WIDENING ? entry : INFINITY;
 }
 
-/// Ties: true if triangle a has a lower index in the scene than b (both in leaf order), or b is none. Looked up only then:
-/// it is one more line of memory.
+/// Ties: true if triangle a has a lower index in the scene than b (both in leaf order), or b is none. Looked up only
+/// then: it is one more line of memory.
 INLINE int comesFirst(const SceneView* scene, uint a, uint b) {
   return b == NO_HIT || scene->triangles[a].primitive < scene->triangles[b].primitive;
 }

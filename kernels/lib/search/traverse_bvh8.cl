@@ -1,6 +1,6 @@
 // Searches for one ray at a time through the eight-wide tree: one ray against eight boxes, or eight triangles, in the
-// lanes of a float8. For rays that share no way, where a packet would drag the others along. The arithmetic of a lane is
-// that of the other searches, so the answers are the same bits.
+// lanes of a float8. For rays that share no way, where a packet would drag the others along. The arithmetic of a lane
+// is that of the other searches, so the answers are the same bits.
 #include "lib/search/bvh8.cl"
 
 #if HAS(TREE) && HAS(PACKETS)
@@ -48,8 +48,8 @@ INLINE Bvh8Ray bvh8Ray(const RayTable* rays, uint lane) {
   return r;
 }
 
-/// The eight children of a node: mask of those that the ray enters before tMax, and where. Lets in all that childEntry lets
-/// in, and a little more where the direction is regular.
+/// The eight children of a node: mask of those that the ray enters before tMax, and where. Lets in all that childEntry
+/// lets in, and a little more where the direction is regular.
 INLINE int8 childEntries8(const Bvh8Ray* r, __global const float* node, float tMax, float8* entry) {
   float8 enter = (float8)(0.0f), leave = (float8)(tMax);
   if (r->regular) {
@@ -90,8 +90,8 @@ float8 clampToBox8(const Bvh8Ray* r, const Leaf* leaf, float8 t) {
   return t;
 }
 
-/// intersectTriangle for a leaf's triangles: bits of those met at 0 < t <= tMax; t of all lanes, and the areas whose ratios v/det and w/det
-/// are the barycentrics b1 and b2.
+/// intersectTriangle for a leaf's triangles: bits of those met at 0 < t <= tMax; t of all lanes, and the areas whose
+/// ratios v/det and w/det are the barycentrics b1 and b2.
 INLINE uint intersectLeaf(const Bvh8Ray* r, const Leaf* leaf, float tMax, float8* t, float8* areaV, float8* areaW,
                           float8* area) {
   const float ox = r->o[r->kx], oy = r->o[r->ky], oz = r->o[r->kz];

@@ -1,10 +1,10 @@
-// Searches for sixteen neighbouring rays at once, one in each lane of a float16. The arithmetic of a lane is that of the
-// single-ray search, bit for bit, so the two agree (packet.cl).
+// Searches for sixteen neighbouring rays at once, one in each lane of a float16. The arithmetic of a lane is that of
+// the single-ray search, bit for bit, so the two agree (packet.cl).
 //
-// Through the eight-wide tree the packet goes down once, as long as its rays run the same way: bounds of its origins and
-// directions are held against eight boxes in the lanes of a float8 (interval arithmetic; Boulos, Wald, Shirley, "Geometric
-// and Arithmetic Culling Methods for Entire Ray Packets", 2006), then sixteen rays against each box that is left, and only
-// triangles whose own boxes the bounds meet are tested. Rays that share no way are walked one by one.
+// Through the eight-wide tree the packet goes down once, as long as its rays run the same way: bounds of its origins
+// and directions are held against eight boxes in the lanes of a float8 (interval arithmetic; Boulos, Wald, Shirley,
+// "Geometric and Arithmetic Culling Methods for Entire Ray Packets", 2006), then sixteen rays against each box that is
+// left, and only triangles whose own boxes the bounds meet are tested. Rays that share no way are walked one by one.
 #include "lib/search/packet.cl"
 #include "lib/search/traverse_bvh8.cl"
 
@@ -36,8 +36,8 @@ typedef struct {
   int together;      // 1: the rays run the same way, no direction parallel to an axis
 } PacketBounds;
 
-/// Largest difference between directions along an axis for which rays run the same way; from 0.1 to 0.25 nothing changes,
-/// above it rays of a second bounce drag one another along (experiments/).
+/// Largest difference between directions along an axis for which rays run the same way; from 0.1 to 0.25 nothing
+/// changes, above it rays of a second bounce drag one another along (experiments/).
 #define PACKET_SPREAD 0.25f
 
 INLINE PacketBounds boundPacket(const Packet* p) {
@@ -99,8 +99,8 @@ INLINE int8 packetChildren(const PacketBounds* b, __global const float* node, fl
   return packetEntries8(b, near, far, tMax, entry);
 }
 
-/// True if some ray of the packet enters lane `child` of a node before its own tMax, by the same fma as childEntries8. For
-/// packets that run together.
+/// True if some ray of the packet enters lane `child` of a node before its own tMax, by the same fma as childEntries8.
+/// For packets that run together.
 INLINE int entersChild(const Packet* p, const PacketBounds* b, float16 tMax, __global const float* node, uint child) {
   __global const float* box = node + child;
   const float16 nearX = fma((float16)(box[b->nearPlane[0]]), p->inverse[0], p->nearBias[0]);

@@ -1,6 +1,6 @@
-// Watertight ray-triangle test (Woop, Benthin, Wald 2013): its mathematics for every width, and the test of one ray. The edge
-// functions carry the exact sign of the projected areas (difference of products with two fma), so two triangles that share
-// an edge cannot both reject.
+// Watertight ray-triangle test (Woop, Benthin, Wald 2013): its mathematics for every width, and the test of one ray.
+// The edge functions carry the exact sign of the projected areas (difference of products with two fma), so two
+// triangles that share an edge cannot both reject.
 #include "lib/search/one_lane.cl"
 
 /// A ray with the shear that turns its largest axis into +z: o + t d.
@@ -46,12 +46,12 @@ INLINE void extent(float a, float b, float c, float* lo, float* hi) {
   *hi = c > greatest ? c : greatest;
 }
 
-/// Corners farther along the ray's largest axis than this many times the hit make t imprecise: their rounding is not the
-/// hit's. Below it t is off by less than FAR_WIDENING takes care of.
+/// Corners farther along the ray's largest axis than this many times the hit make t imprecise: their rounding is not
+/// the hit's. Below it t is off by less than FAR_WIDENING takes care of.
 #define FAR_CORNERS 1.5f
 
-/// From corners (x, y) sheared onto the ray: areas u, v, w across from each corner, and whether the ray passes inside, all of
-/// them of one sign.
+/// From corners (x, y) sheared onto the ray: areas u, v, w across from each corner, and whether the ray passes inside,
+/// all of them of one sign.
 #define EDGE_TEST(Float, Mask, width)                                                                            \
   INLINE Mask edgeTest##width(Float ax, Float ay, Float bx, Float by, Float cx, Float cy, Float* u, Float* v,    \
                               Float* w) {                                                                        \
@@ -64,8 +64,8 @@ EDGE_TEST(float, int, )
 EDGE_TEST(float8, int8, 8)
 EDGE_TEST(float16, int16, 16)
 
-/// Distance of the hit; det: the sum of its areas, z: the corners' distances along the ray's largest axis, sz: one over the
-/// direction there. far: where t is still to be clamped to the triangle's box.
+/// Distance of the hit; det: the sum of its areas, z: the corners' distances along the ray's largest axis, sz: one over
+/// the direction there. far: where t is still to be clamped to the triangle's box.
 #define HIT_DISTANCE(Float, Mask, width)                                                                         \
   INLINE Float hitDistance##width(Float u, Float v, Float w, Float det, Float sz, Float az, Float bz, Float cz,  \
                                   Mask* far) {                                                                   \
@@ -81,11 +81,11 @@ HIT_DISTANCE(float, int, )
 HIT_DISTANCE(float8, int8, 8)
 HIT_DISTANCE(float16, int16, 16)
 
-/// t kept between the distances at which the ray enters and leaves the triangle's own box; for triangles with far corners.
-/// Else t could lie before the box, and which of two triangles is nearer would depend on the order in which boxes are culled;
-/// of a triangle across an axis, a floor, t becomes exact. NaN stays NaN. First all near planes, then all far ones, so that
-/// the order of the axes does not matter. clampToBox8 and clampToBox16 follow it; SearchAgreement.GravelOnAPlain holds them to
-/// its bits.
+/// t kept between the distances at which the ray enters and leaves the triangle's own box; for triangles with far
+/// corners. Else t could lie before the box, and which of two triangles is nearer would depend on the order in which
+/// boxes are culled; of a triangle across an axis, a floor, t becomes exact. NaN stays NaN. First all near planes, then
+/// all far ones, so that the order of the axes does not matter. clampToBox8 and clampToBox16 follow it;
+/// SearchAgreement.GravelOnAPlain holds them to its bits.
 INLINE float clampToBox(const Ray* r, __global const DeviceTriangle* triangle, float t) {
   float far[3];
   for (int a = 0; a < 3; ++a) {
@@ -101,8 +101,9 @@ INLINE float clampToBox(const Ray* r, __global const DeviceTriangle* triangle, f
 }
 
 /// True if the ray meets the triangle at 0 < t <= tMax; `hit` then holds distance and barycentrics. intersectLeaf and
-/// intersectAxis do the same for other layouts; SearchAgreement in tests/kernels holds them to the same bits. The host turns a
-/// triangle without area into a point (det 0, t not a number): rounding could open it in the plane across the ray.
+/// intersectAxis do the same for other layouts; SearchAgreement in tests/kernels holds them to the same bits. The host
+/// turns a triangle without area into a point (det 0, t not a number): rounding could open it in the plane across the
+/// ray.
 INLINE int intersectTriangle(const Ray* r, __global const DeviceTriangle* triangle, float tMax, Candidate* hit) {
   const float az = triangle->v[0][r->kz] - r->o[r->kz];
   const float bz = triangle->v[1][r->kz] - r->o[r->kz];

@@ -1,8 +1,9 @@
-// Fresnel reflectance: exact for dielectrics, Schlick 1994 for metals and for the microfacet lobe (glTF 2.0, appendix B).
+// Fresnel reflectance: exact for dielectrics, Schlick 1994 for metals and for the microfacet lobe (glTF 2.0, appendix
+// B).
 #include "lib/lanes.cl"
 
-/// Unpolarised reflectance at an interface; eta = n_t / n_i, cosine = n·w_o in [0, 1]. 1 at total reflection, where `total`
-/// is set: no light passes.
+/// Unpolarised reflectance at an interface; eta = n_t / n_i, cosine = n·w_o in [0, 1]. 1 at total reflection, where
+/// `total` is set: no light passes.
 INLINE Real fresnelDielectric(Real cosine, Real eta, Mask* total) {
   const Real sin2 = 1.0f - cosine * cosine;
   const Real sin2T = (sin2 > 0.0f ? sin2 : (Real)(0.0f)) / (eta * eta);

@@ -1,10 +1,10 @@
-// Texture lookups: level 0, bilinear or nearest, wrap modes, sRGB decoded for each texel before filtering. The loads of all
-// lanes are under way at once.
+// Texture lookups: level 0, bilinear or nearest, wrap modes, sRGB decoded for each texel before filtering. The loads of
+// all lanes are under way at once.
 #include "lib/lanes.cl"
 #include "lib/scene.cl"
 
-/// Texture coordinates of both sets, each with what its rounding lost: beside a count of many repeats a float's last bit is a
-/// good part of a texel.
+/// Texture coordinates of both sets, each with what its rounding lost: beside a count of many repeats a float's last
+/// bit is a good part of a texel.
 typedef struct {
   Real u[2], v[2], uLow[2], vLow[2];
 } Uv;
@@ -79,8 +79,8 @@ INLINE Rgba blendTexels(const SceneView* scene, const Records* texture, Real u, 
   return result;
 }
 
-// Shading looks up to seven slots: calls cost it less than a tenth of shade, where copies cost two thirds of the time to
-// compile. Searches look up one or two, mostly for alpha alone: in line the colours fall away (search/one_lane.cl).
+// Shading looks up to seven slots: calls cost it less than a tenth of shade, where copies cost two thirds of the time
+// to compile. Searches look up one or two, mostly for alpha alone: in line the colours fall away (search/one_lane.cl).
 #ifndef TEXTURE_LOOKUP
 #define TEXTURE_LOOKUP
 #endif

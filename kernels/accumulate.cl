@@ -2,6 +2,18 @@
 // sample are neighbours; the work item at the first of them adds them all in queue order, so no order is left to chance.
 #include "lib/math.cl"
 
+/// Planes p, p + 1, p + 2 of entry i of a struct-of-arrays queue.
+INLINE float3 loadPlanes3(__global const float* queue, uint capacity, uint plane, uint i) {
+  return (float3)(queue[(size_t)plane * capacity + i], queue[(size_t)(plane + 1) * capacity + i],
+                  queue[(size_t)(plane + 2) * capacity + i]);
+}
+
+INLINE void storePlanes3(__global float* queue, uint capacity, uint plane, uint i, float3 v) {
+  queue[(size_t)plane * capacity + i] = v.x;
+  queue[(size_t)(plane + 1) * capacity + i] = v.y;
+  queue[(size_t)(plane + 2) * capacity + i] = v.z;
+}
+
 __kernel void accumulate(const uint first, const uint count, const uint capacity, __global const float* rays,
                          __global const float* entryRadiance, __global float* sampleRadiance) {
   const uint i = get_global_id(0);

@@ -1,7 +1,7 @@
 // intersect: the nearest hit of each ray of a segment of the ray queue. One ray for each work item, or sixteen
 // neighbouring ones (PACKETS). Writes the hit queue, distances if it has room for them; entry i of the hits belongs to
 // ray first + i. (An argument, not a feature: what asks for distances leaves the searches as they are.)
-#include "lib/traverse_packet.cl"
+#include "lib/search/traverse_packet.cl"
 
 __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const uint capacity,
                         __global const float* rays,  // [RAY_PLANES][capacity]
@@ -36,7 +36,7 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
 #else
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
-  const Ray r = makeRay(loadPlanes3(rays, capacity, RAY_O, first + i), loadPlanes3(rays, capacity, RAY_D, first + i));
+  const Ray r = makeRay(loadReal3(rays, capacity, RAY_O, first + i), loadReal3(rays, capacity, RAY_D, first + i));
   const Hit hit = nearestSingle(&scene, &r);
   if (hitPlanes > HIT_T) hits[HIT_T * stride + i] = hit.t;
   hits[HIT_TRIANGLE * stride + i] = as_float(hit.triangle);

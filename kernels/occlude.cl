@@ -1,7 +1,7 @@
 // occlude: what of the light reaches each shadow ray's origin. Reads the shadow queue (indices of candidates), adds
 // contribution · transmittance to the entry's radiance: an entry has one shadow ray for each light round, so no two
 // work items add to the same place.
-#include "lib/traverse_packet.cl"
+#include "lib/search/traverse_packet.cl"
 
 #if HAS(PACKETS)
 /// Sixteen entries of a shadow queue that are in use.
@@ -38,9 +38,9 @@ INLINE void addLight(const ShadowLanes* s, int16 blocked, const uint* stops, __g
     if (dark[k]) continue;
     const uint own[3] = {stops[k], stops[PACKET_RAYS + k], stops[2 * PACKET_RAYS + k]};
     const uint entry = s->entries[k];
-    const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
-    const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry);
-    storePlanes3(entryRadiance, capacity, 0, entry, before + contribution * transmittanceFromStops(own));
+    const Real3 contribution = loadReal3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
+    const Real3 before = loadReal3(entryRadiance, capacity, 0, entry);
+    storeReal3(entryRadiance, capacity, 0, entry, add3(before, mul3(contribution, transmittanceFromStops(own))));
   }
 }
 #endif
@@ -78,11 +78,11 @@ __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity,
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const uint entry = shadowQueue[i];
-  const Ray r = makeRay(loadPlanes3(shadows, capacity, SHADOW_O, entry), loadPlanes3(shadows, capacity, SHADOW_D, entry));
-  const float3 transmittance = transmittanceSingle(&scene, &r, shadows[(size_t)SHADOW_LENGTH * capacity + entry]);
+  const Ray r = makeRay(loadReal3(shadows, capacity, SHADOW_O, entry), loadReal3(shadows, capacity, SHADOW_D, entry));
+  const Real3 transmittance = transmittanceSingle(&scene, &r, shadows[(size_t)SHADOW_LENGTH * capacity + entry]);
   if (!anyPositive(transmittance)) return;
-  const float3 contribution = loadPlanes3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
-  const float3 before = loadPlanes3(entryRadiance, capacity, 0, entry);
-  storePlanes3(entryRadiance, capacity, 0, entry, before + contribution * transmittance);
+  const Real3 contribution = loadReal3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
+  const Real3 before = loadReal3(entryRadiance, capacity, 0, entry);
+  storeReal3(entryRadiance, capacity, 0, entry, add3(before, mul3(contribution, transmittance)));
 #endif
 }

@@ -46,7 +46,7 @@ INLINE Real onPlane(float start, float stepX, float stepXLow, float stepY, float
                     Real nyLow, Real* low) {
   const Real moveX = nx * stepX, moveY = ny * stepY;
   const Real withX = start + moveX, high = withX + moveY;
-  *low = sumErrorReal(start, moveX, withX) + sumErrorReal(withX, moveY, high) +
+  *low = sumError(start, moveX, withX) + sumError(withX, moveY, high) +
          (fma(nx, (Real)(stepX), -moveX) + nxLow * stepX + nx * stepXLow) +
          (fma(ny, (Real)(stepY), -moveY) + nyLow * stepY + ny * stepYLow);
   return high;

@@ -2,12 +2,12 @@
 // entry's radiance (emission, background, light that needs no shadow ray), its shadow candidate for the first light, its
 // impulse candidates and their flags. What is written for an entry without its flag means nothing.
 // shade_light: the shadow candidate of a further light, one round for each light, so that memory does not grow with them.
-#include "lib/background.cl"
-#include "lib/bsdf.cl"
-#include "lib/ray_offset.cl"
+#include "lib/surface/background.cl"
+#include "lib/surface/bsdf.cl"
+#include "lib/surface/ray_offset.cl"
 #include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
-#include "lib/light.cl"
+#include "lib/surface/light.cl"
 #include "lib/sampler.cl"
 
 /// The rays of LANES neighbouring entries and what they hit.
@@ -93,8 +93,8 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
 #endif
   __global const DeviceLight* light = scene->lights + lightIndex;
   const Illumination arriving = illuminationAt(light, s->position);
-  const Real cosine = dots(s->n, arriving.w_i);
-  lit = lit & (cosine > 0.0f) & (dots(s->n_g, arriving.w_i) > 0.0f) & notDark(arriving.biradiance);
+  const Real cosine = dot3(s->n, arriving.w_i);
+  lit = lit & (cosine > 0.0f) & (dot3(s->n_g, arriving.w_i) > 0.0f) & notDark(arriving.biradiance);
   if (!some(lit)) return (Natural)(0);
   const Real3 f = finiteScattering(constants, s, w_o, arriving.w_i);
   const Real3 contribution = scale3(cosine, mul3(scale3(s->alpha, f), arriving.biradiance));
@@ -118,7 +118,7 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
 /// The largest channel of a throughput that is at most the cut-off, in the units of layout.h. Truncation loses less than
 /// one unit, the rounding of the division a fraction of another.
 INLINE Natural cutOffUnits(Real3 throughput, float cutoff) {
-  const Real share = clampUnit(largestOf(throughput.x, throughput.y, throughput.z) / cutoff);
+  const Real share = clampUnit(largestOfThree(throughput.x, throughput.y, throughput.z) / cutoff);
   return AS_NATURAL(TO_WHOLE(share * (float)CUTOFF_UNITS)) + 2u;
 }
 #endif
@@ -129,7 +129,7 @@ INLINE Natural cutOffUnits(Real3 throughput, float cutoff) {
 INLINE Natural storeImpulse(const RenderConstants* constants, const Surfel* s, const Impulse* impulse, Mask hit, Real3 throughput,
                             uint k, uint i, uint capacity, __global float* impulses) {
   const Real3 carried = mul3(throughput, impulse->magnitude);
-  Mask sent = hit & somePositive(carried) & finite3(impulse->w_i);
+  Mask sent = hit & anyPositive(carried) & isFinite3(impulse->w_i);
   Natural cut = (Natural)(0);
 #if HAS(CUTOFF)
   const float cutoff = constants->cutoff;
@@ -154,7 +154,7 @@ INLINE Real3 spoiltBy(Real3 radiance, Real3 magnitude) {
 /// Keeps one of two impulses with probability proportional to its luminance, divided by that probability.
 INLINE void chooseOne(Impulse* first, Impulse* second, Real u) {
   const Real3 zero = same3((float3)(0.0f));
-  const Real a = luminances(first->magnitude), b = luminances(second->magnitude);
+  const Real a = luminance(first->magnitude), b = luminance(second->magnitude);
   const Real sum = a + b;
   const Mask any = sum > 0.0f;
   const Real p = a / sum;
@@ -167,7 +167,7 @@ INLINE void chooseOne(Impulse* first, Impulse* second, Real u) {
 #if HAS(IMPULSES) && !HAS(BOTH_BRANCHES)
 /// Where no surface sends out two impulses: the one there is.
 INLINE Impulse existing(const Impulse* first, const Impulse* second) {
-  const Mask isSecond = somePositive(second->magnitude);
+  const Mask isSecond = anyPositive(second->magnitude);
   Impulse only;
   only.w_i = choose3(isSecond, second->w_i, first->w_i);
   only.magnitude = choose3(isSecond, second->magnitude, first->magnitude);
@@ -201,7 +201,7 @@ INLINE SampleNames sampleNames(const Batch* batch, uint width, __global const ui
 #endif
 
 #if HAS(ONE_IMPULSE)
-INLINE Real randomNumbers(const SampleNames* names, uint dimension, uint seed) {
+INLINE Real randomNumber(const SampleNames* names, uint dimension, uint seed) {
   float own[LANES];
   for (uint k = 0; k < LANES; ++k) own[k] = unitFloat(hash4(names->place[k], names->sample[k], dimension, seed));
   return LOAD(own);
@@ -271,7 +271,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
       impulsesAt(&own, &s, w_o, &one, &two);
       shaded = spoiltBy(shaded, add3(one.magnitude, two.magnitude));
 #if HAS(ONE_IMPULSE)
-      chooseOne(&one, &two, randomNumbers(&names, 16u + bounce, own.seed));
+      chooseOne(&one, &two, randomNumber(&names, 16u + bounce, own.seed));
 #endif
       Real3 throughput = attenuation;
       if (bounce > 1) throughput = mul3(loadReal3(rays, capacity, RAY_THROUGHPUT, first + i), attenuation);

@@ -1,5 +1,5 @@
 // Conservative, in double: a kernel computes in float, from points that lie off their triangle by rounding.
-// A light is left out only where it is dark by far more than that. Formulas: kernels/lib/light.cl.
+// A light is left out only where it is dark by far more than that. Formulas: kernels/lib/surface/light.cl.
 #include "analysis/light_reach.h"
 
 #include <tbb/blocked_range.h>

@@ -1,4 +1,4 @@
-// Which parts of a material show: follows kernels/lib/surfel.cl, surfels.cl and bsdf.cl.
+// Which parts of a material show: follows kernels/lib/surface: point.cl, material.cl, surfel.cl and bsdf.cl.
 #include "analysis/material_use.h"
 
 #include <algorithm>

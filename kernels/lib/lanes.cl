@@ -1,10 +1,21 @@
-// Lanes: the neighbouring entries of a queue that one work item handles side by side, eight (PACKETS, for a CPU's
-// vectors) or one. Code in these types reads the same for both and gives the same bits: a choice is cond ? a : b, a
-// comparison's result a Mask, combined by & | and ! only.
+// Lanes: what one work item handles side by side, in the types Real, Natural, Mask and Real3. LANES says how many:
+// eight entries of a queue with PACKETS (for a CPU's vectors), else one. Searches ask about one surface at a time and
+// have one lane (search/one_lane.cl). Code in these types is one text for both and gives the same bits: a choice is
+// cond ? a : b, a comparison's result a Mask, combined by & | and ! only.
+//
+// Names: an 8 or 16 at the end (anyOf8, largest16) is a width of its own, whatever LANES is. Without it a function of
+// these types has LANES lanes, and one of float, uint or float3 a single value. The 3 of dot3 counts axes.
 #include "lib/math.cl"
 
+#ifndef LANES
 #if HAS(PACKETS)
 #define LANES ENTRY_LANES
+#else
+#define LANES 1
+#endif
+#endif
+
+#if LANES == ENTRY_LANES
 typedef float8 Real;
 typedef int8 Mask;
 typedef uint8 Natural;
@@ -22,7 +33,6 @@ INLINE Real gather(__global const float* p, Natural at) {
 }
 INLINE int some(Mask mask) { return anyOf8(mask); }
 #else
-#define LANES 1
 typedef float Real;
 typedef int Mask;
 typedef uint Natural;
@@ -59,25 +69,26 @@ INLINE Real3 scale3(Real s, Real3 v) { return real3(s * v.x, s * v.y, s * v.z); 
 INLINE Real3 over3(Real3 v, Real s) { return real3(v.x / s, v.y / s, v.z / s); }
 INLINE Real3 minus3(Real3 v) { return real3(-v.x, -v.y, -v.z); }
 INLINE Real3 choose3(Mask m, Real3 a, Real3 b) { return real3(m ? a.x : b.x, m ? a.y : b.y, m ? a.z : b.z); }
-INLINE Real dots(Real3 a, Real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-INLINE Real3 crosses(Real3 a, Real3 b) {
+INLINE Real dot3(Real3 a, Real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+INLINE Real3 cross3(Real3 a, Real3 b) {
   return real3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
-INLINE Real largestOf(Real a, Real b, Real c) {
+INLINE Real largestOfThree(Real a, Real b, Real c) {
   const Real ab = a > b ? a : b;
   return ab > c ? ab : c;
 }
 INLINE Real clampUnit(Real x) { return x > 0.0f ? (x < 1.0f ? x : (Real)(1.0f)) : (Real)(0.0f); }
-INLINE Real luminances(Real3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
-INLINE Mask somePositive(Real3 c) { return (c.x > 0.0f) | (c.y > 0.0f) | (c.z > 0.0f); }
+/// Rec. 709 luminance.
+INLINE Real luminance(Real3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+INLINE Mask anyPositive(Real3 c) { return (c.x > 0.0f) | (c.y > 0.0f) | (c.z > 0.0f); }
 /// Light that must not be lost: also what is no number, so that the film can count it.
 INLINE Mask notDark(Real3 c) { return !((c.x <= 0.0f) & (c.y <= 0.0f) & (c.z <= 0.0f)); }
-INLINE Mask finite3(Real3 v) { return isfinite(v.x) & isfinite(v.y) & isfinite(v.z); }
+INLINE Mask isFinite3(Real3 v) { return isfinite(v.x) & isfinite(v.y) & isfinite(v.z); }
 
-/// Unit vectors, as normalize3.
-INLINE Real3 normalized(Real3 v) {
-  const Real3 s = over3(v, largestOf(fabs(v.x), fabs(v.y), fabs(v.z)));
-  return over3(s, sqrt(dots(s, s)));
+/// Unit vector; scaled first so that 1e-30 and 1e30 survive the squares. (0,0,0) and NaN give NaN.
+INLINE Real3 normalize3(Real3 v) {
+  const Real3 s = over3(v, largestOfThree(fabs(v.x), fabs(v.y), fabs(v.z)));
+  return over3(s, sqrt(dot3(s, s)));
 }
 
 INLINE Real3 gather3(__global const float* p, Natural at) {
@@ -95,13 +106,13 @@ INLINE Real3 loadReal3(__global const float* queue, uint capacity, uint plane, u
                LOAD(queue + (size_t)(plane + 2) * capacity + i));
 }
 
-/// The exact error of a sum, as sumError.
-INLINE Real sumErrorReal(Real a, Real b, Real sum) {
+/// What a + b lost when it was rounded to `sum`; exact (Knuth's two-sum).
+INLINE Real sumError(Real a, Real b, Real sum) {
   const Real part = sum - a;
   return (a - (sum - part)) + (b - part);
 }
-INLINE Real3 sumErrors(Real3 a, Real3 b, Real3 sum) {
-  return real3(sumErrorReal(a.x, b.x, sum.x), sumErrorReal(a.y, b.y, sum.y), sumErrorReal(a.z, b.z, sum.z));
+INLINE Real3 sumError3(Real3 a, Real3 b, Real3 sum) {
+  return real3(sumError(a.x, b.x, sum.x), sumError(a.y, b.y, sum.y), sumError(a.z, b.z, sum.z));
 }
 
 /// One struct out of an array for each lane: where its words begin. Neighbours mostly share one.
@@ -124,7 +135,8 @@ INLINE Real wordOf(const Records* r, uint word) {
 }
 
 #define WORDS_OF(Struct) ((uint)(sizeof(Struct) / 4))
-/// A null pointer need not be address 0 (in Mesa a private one is not): what counts is the distance from the struct's begin.
+/// A null pointer need not be address 0 (in Mesa a private one is not): what counts is the distance from the struct's
+/// begin.
 #define WORD_OF(Struct, field) \
   ((uint)(((__global const char*)&((__global Struct*)0)->field - (__global const char*)(__global Struct*)0) / 4))
 #define FIELD(records, Struct, field) wordOf(records, WORD_OF(Struct, field))

@@ -94,7 +94,7 @@ TEST(KernelSource, TheBinaryHoldsTheFilesOfTheFolder) {
   const std::string text = assembleKernelSource({"intersect.cl", "occlude.cl"});
   EXPECT_EQ(occurrences(text, "#include \""), 0U);
   EXPECT_EQ(occurrences(text, "__kernel void intersect("), 1U);
-  EXPECT_EQ(occurrences(text, "float dot3(float3 a, float3 b)"), 1U);
+  EXPECT_EQ(occurrences(text, "Real dot3(Real3 a, Real3 b)"), 1U);
 }
 
 }  // namespace

@@ -202,7 +202,7 @@ TEST(UsageOfFiles, ALinkToItselfIsReadNowhere) {
 /// A folder of kernels in which a file is missing, or no file, or does not compile.
 TEST(UsageOfFiles, KernelsOfAFolderSayWhatIsWrong) {
   const Folder folder;
-  const auto kernels = folder / "k", broken = kernels / "lib" / "bsdf.cl";
+  const auto kernels = folder / "k", broken = kernels / "lib" / "surface" / "bsdf.cl";
   std::filesystem::copy(std::string(WHITTLE_SCENES) + "/../kernels", kernels,
                         std::filesystem::copy_options::recursive);
   const auto render = [&] {
@@ -218,7 +218,7 @@ TEST(UsageOfFiles, KernelsOfAFolderSayWhatIsWrong) {
   const auto expectUnreadable = [&](const char* why) {
     const Outcome run = render();
     EXPECT_EQ(run.status, 2) << "a folder without its files is wrong input";
-    EXPECT_NE(run.err.find(std::string("whittle: --kernels: k/lib/bsdf.cl cannot be read: ") + why),
+    EXPECT_NE(run.err.find(std::string("whittle: --kernels: k/lib/surface/bsdf.cl cannot be read: ") + why),
               std::string::npos)
         << run.err;
   };

@@ -1,5 +1,6 @@
 // The small mathematics of kernels/lib against exact or double-precision twins: contraction, differences of
-// products, normalisation, Fresnel reflectance, the edge of a spot light.
+// products, normalisation, Fresnel reflectance, the edge of a spot light; what is in lanes with one and with
+// eight.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,27 +8,19 @@
 
 #include "kernels/shared/layout.h"
 #include "stability/record.h"
-#include "support/kernel_bench.h"
+#include "support/lane_bench.h"
 #include "support/random_scenes.h"
 
 namespace whittle {
 namespace {
 
-constexpr const char* kKernels = R"(
-__kernel void canary(uint n, __global const float* v, __global float* out) {
-  const uint i = get_global_id(0);
-  if (i >= n) return;
-  const float x = v[4 * i], y = v[4 * i + 1], z = v[4 * i + 2], w = v[4 * i + 3];
-  out[3 * i] = x * y - y * x;
-  out[3 * i + 1] = (x * w - y * z) + (z * y - w * x);  // the edge function from both sides
-  const float3 c = cross3((float3)(x, y, z), (float3)(x, y, z));
-  out[3 * i + 2] = fabs(c.x) + fabs(c.y) + fabs(c.z);
-}
+/// Numbers of a single value and of eight or sixteen, whatever the lanes.
+constexpr const char* kWidths = R"(
 __kernel void difference(uint n, __global const float* v, __global float* out) {
   const uint i = get_global_id(0);
   if (i < n) out[i] = differenceOfProducts(v[4 * i], v[4 * i + 1], v[4 * i + 2], v[4 * i + 3]);
 }
-__kernel void eight_lanes(uint n, __global const float* v, __global float* out) {
+__kernel void eight(uint n, __global const float* v, __global float* out) {
   const uint i = get_global_id(0);
   if (i >= n) return;
   const float8 x = vload8(4 * i, v), y = vload8(4 * i + 1, v), z = vload8(4 * i + 2, v), w = vload8(4 * i + 3, v);
@@ -35,16 +28,34 @@ __kernel void eight_lanes(uint n, __global const float* v, __global float* out) 
   vstore8((x * w - y * z) + (z * y - w * x), 3 * i + 1, out);
   vstore8(differenceOfProducts8(x, y, z, w), 3 * i + 2, out);
 }
-__kernel void unit_vector(uint n, __global const float* v, __global float* out) {
-  const uint i = get_global_id(0);
-  if (i < n) vstore3(normalize3(vload3(i, v)), i, out);
-}
-__kernel void fresnel(uint n, __global const float* v, __global float* out) {
+__kernel void sixteen(uint n, __global const float* v, __global float* out) {
   const uint i = get_global_id(0);
   if (i >= n) return;
-  float cosT;
-  out[2 * i] = fresnelDielectric(v[2 * i], v[2 * i + 1], &cosT);
-  out[2 * i + 1] = cosT;
+  const float16 x = vload16(4 * i, v), y = vload16(4 * i + 1, v), z = vload16(4 * i + 2, v), w = vload16(4 * i + 3, v);
+  vstore16(x * y - y * x, 3 * i, out);
+  vstore16((x * w - y * z) + (z * y - w * x), 3 * i + 1, out);
+  vstore16(differenceOfProducts16(x, y, z, w), 3 * i + 2, out);
+}
+)";
+
+constexpr const char* kKernels = R"(
+__kernel void canary(uint n, __global const float* v, __global float* out) {
+  FOR_ENTRIES(i, n)
+  const Real x = gather(v, 4u * entry), y = gather(v + 1, 4u * entry), z = gather(v + 2, 4u * entry),
+             w = gather(v + 3, 4u * entry);
+  const Real3 c = cross3(real3(x, y, z), real3(x, y, z));
+  // Second: the edge function from both sides.
+  put3(out, 3u * entry, real3(x * y - y * x, (x * w - y * z) + (z * y - w * x), fabs(c.x) + fabs(c.y) + fabs(c.z)));
+}
+__kernel void unit_vector(uint n, __global const float* v, __global float* out) {
+  FOR_ENTRIES(i, n)
+  put3(out, 3u * entry, normalize3(gather3(v, 3u * entry)));
+}
+__kernel void fresnel(uint n, __global const float* v, __global float* out) {
+  FOR_ENTRIES(i, n)
+  Mask total;
+  put(out, 2u * entry, fresnelDielectric(gather(v, 2u * entry), gather(v + 1, 2u * entry), &total));
+  put(out, 2u * entry + 1u, total ? (Real)(1.0f) : (Real)(0.0f));
 }
 __kernel void spot(uint n, __global const DeviceLight* light, __global const float* v, __global float* out) {
   const uint i = get_global_id(0);
@@ -52,7 +63,8 @@ __kernel void spot(uint n, __global const DeviceLight* light, __global const flo
 }
 )";
 
-test::KernelBench makeBench() { return test::KernelBench({"lib/fresnel.cl", "lib/light.cl"}, kKernels); }
+test::KernelBench makeBench() { return test::KernelBench({"lib/math.cl"}, kWidths); }
+test::LaneBench makeLanes() { return {{"lib/surface/fresnel.cl", "lib/surface/light.cl"}, kKernels}; }
 
 float sized(test::Rng& rng, float decades) {
   return rng.between(1, 2) * std::pow(10.0F, rng.between(-decades, decades)) *
@@ -60,35 +72,40 @@ float sized(test::Rng& rng, float decades) {
 }
 
 TEST(Math, NothingIsContracted) {
-  auto bench = makeBench();
+  auto bench = makeLanes();
   test::Rng rng(1);
   std::vector<float> v(4 * 20011);
   for (float& x : v) x = sized(rng, 3);
-  const auto out = bench.map<float>("canary", 20011, 3, bench.compute.upload("v", v));
+  const auto out = bench.map<float>("canary", 20011, 3, v);
   test::recordCount("1", "x·y − y·x, an edge function from both sides, v × v", "0 exactly",
                     out.size() - static_cast<std::size_t>(std::count(out.begin(), out.end(), 0.0F)),
                     out.size(), "values");
 }
 
-/// The same in eight lanes; their difference of products has the single form's bits.
-TEST(Math, EightLanesAreEightTimesOne) {
+/// The same for numbers side by side; their difference of products has the single form's bits.
+TEST(Math, EightAndSixteenAreAsManyTimesOne) {
   auto bench = makeBench();
-  test::Rng rng(3);
-  constexpr std::uint32_t kEights = 2501;
-  std::vector<float> v(std::size_t{4} * 8 * kEights);
-  for (float& x : v) x = sized(rng, 3);
-  std::vector<float> single(v.size());  // the operands of one lane side by side
-  for (std::size_t i = 0; i < v.size(); ++i) single[i / 32 * 32 + i % 8 * 4 + i / 8 % 4] = v[i];
-  const auto eights = bench.map<float>("eight_lanes", kEights, 24, bench.compute.upload("v", v));
-  const auto ones = bench.map<float>("difference", 8 * kEights, 1, bench.compute.upload("single", single));
-  std::size_t contracted = 0, different = 0;
-  for (std::size_t i = 0; i < ones.size(); ++i) {
-    const float* out = &eights[i / 8 * 24 + i % 8];
-    contracted += out[0] != 0.0F || out[8] != 0.0F;
-    different += out[16] != ones[i];
+  for (const auto& [kernel, width] : {std::pair{"eight", std::size_t{8}}, {"sixteen", std::size_t{16}}}) {
+    SCOPED_TRACE(kernel);
+    test::Rng rng(3);
+    constexpr std::uint32_t kGroups = 2501;
+    std::vector<float> v(4 * width * kGroups);
+    for (float& x : v) x = sized(rng, 3);
+    std::vector<float> single(v.size());  // the operands of one value side by side
+    for (std::size_t i = 0; i < v.size(); ++i)
+      single[i / (4 * width) * (4 * width) + i % width * 4 + i / width % 4] = v[i];
+    const auto wide = bench.map<float>(kernel, kGroups, 3 * width, bench.compute.upload("v", v));
+    const auto ones = bench.map<float>("difference", static_cast<std::uint32_t>(v.size() / 4), 1,
+                                       bench.compute.upload("single", single));
+    std::size_t contracted = 0, different = 0;
+    for (std::size_t i = 0; i < ones.size(); ++i) {
+      const float* out = &wide[i / width * 3 * width + i % width];
+      contracted += out[0] != 0.0F || out[width] != 0.0F;
+      different += out[2 * width] != ones[i];
+    }
+    EXPECT_EQ(contracted, 0U);
+    EXPECT_EQ(different, 0U);
   }
-  EXPECT_EQ(contracted, 0U);
-  EXPECT_EQ(different, 0U);
 }
 
 /// a·b − c·d where both products nearly agree: the sign must be the exact one, the error at most 2 units in
@@ -129,7 +146,7 @@ TEST(Math, DifferenceOfProductsHasTheRightSign) {
 }
 
 TEST(Math, NormalizeSurvivesAnySize) {
-  auto bench = makeBench();
+  auto bench = makeLanes();
   test::Rng rng(3);
   std::vector<float> v;
   std::vector<glm::dvec3> expected;
@@ -142,7 +159,7 @@ TEST(Math, NormalizeSurvivesAnySize) {
   }
   const auto count = static_cast<std::uint32_t>(expected.size());
   v.insert(v.end(), {0, 0, 0});
-  const auto out = bench.map<float>("unit_vector", count + 1, 3, bench.compute.upload("v", v));
+  const auto out = bench.map<float>("unit_vector", count + 1, 3, v);
   for (std::uint32_t i = 0; i < count; ++i)
     for (int a = 0; a < 3; ++a)  // two divisions, a root, a sum: fewer than 8 roundings, 2.5 units each where
                                  // a device is allowed that
@@ -166,19 +183,19 @@ class FresnelBench {
   /// R at each (cosine, eta).
   std::vector<float> operator()(const std::vector<float>& pairs) {
     const auto count = static_cast<std::uint32_t>(pairs.size() / 2);
-    const auto out = bench_.map<float>("fresnel", count, 2, bench_.compute.upload("v", pairs));
+    const auto out = bench_.map<float>("fresnel", count, 2, pairs);
     std::vector<float> r(count);
     for (std::uint32_t i = 0; i < count; ++i) {
       r[i] = out[2 * i];
       EXPECT_TRUE(r[i] >= 0 && r[i] <= 1)
           << "cosine " << pairs[2 * i] << " eta " << pairs[2 * i + 1] << ": " << r[i];
-      EXPECT_TRUE(out[2 * i + 1] >= 0 && out[2 * i + 1] <= 1) << "cosine of the refracted ray";
+      EXPECT_TRUE(out[2 * i + 1] == 0 || r[i] == 1) << "total reflection leaves nothing";
     }
     return r;
   }
 
  private:
-  test::KernelBench bench_ = makeBench();
+  test::LaneBench bench_ = makeLanes();
 };
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -260,7 +277,7 @@ struct SpotCase {
 };
 
 TEST(Spot, EdgeAgainstDouble) {
-  auto bench = makeBench();
+  auto bench = makeLanes();
   std::vector<SpotCase> cases;
   for (const double outer : {0.01 * kDegree, 1 * kDegree, 45 * kDegree, 89.9 * kDegree})
     for (const double inner : {0.0, 0.5 * outer, outer})
@@ -283,8 +300,7 @@ TEST(Spot, EdgeAgainstDouble) {
                                          static_cast<float>(std::sin(c.off) * std::sin(turn))});
   }
   const auto count = static_cast<std::uint32_t>(cases.size());
-  const auto out = bench.map<float>("spot", count, 1, bench.compute.upload("lights", lights),
-                                    bench.compute.upload("v", directions));
+  const auto out = bench.map<float>("spot", count, 1, lights, directions);
   for (std::uint32_t i = 0; i < count; ++i) {
     const SpotCase& c = cases[i];
     const double v = versine(c.off), vo = versine(c.outer), vi = versine(c.inner);

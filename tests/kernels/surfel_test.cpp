@@ -5,7 +5,7 @@
 
 #include "kernels/shared/layout.h"
 #include "reference/vec.h"
-#include "support/kernel_bench.h"
+#include "support/lane_bench.h"
 #include "support/random_scenes.h"
 
 namespace whittle {
@@ -14,18 +14,16 @@ namespace {
 using reference::Vec2;
 using reference::Vec3;
 
-/// One hit in all lanes.
+/// A hit for each lane.
 constexpr const char* kLanes = R"(
-Positions given(uint i, __global const float* hits) {
-  const float b1 = hits[3 * i + 1], b2 = hits[3 * i + 2];
-  const Positions at = {(Real)(1.0f - b1 - b2), (Real)(b1), (Real)(b2), (Real)(0.0f), (Real)(0.0f)};
-  return at;
+Barycentrics given(Natural entry, __global const float* hits) {
+  return barycentrics(gather(hits + 1, 3u * entry), gather(hits + 2, 3u * entry));
 }
-Positions refined(uint i, __global const float* corners, __global const float* o, __global const float* d,
-                  __global const float* hits) {
-  return refinedPositions(same3(vload3(3 * i, corners)), same3(vload3(3 * i + 1, corners)),
-                          same3(vload3(3 * i + 2, corners)), same3(vload3(i, o)), same3(vload3(i, d)),
-                          (Real)(hits[3 * i]), given(i, hits));
+Barycentrics refined(Natural entry, __global const float* corners, __global const float* o, __global const float* d,
+                     __global const float* hits) {
+  return refinedBarycentrics(gather3(corners, 9u * entry), gather3(corners + 3, 9u * entry),
+                             gather3(corners + 6, 9u * entry), gather3(o, 3u * entry), gather3(d, 3u * entry),
+                             gather(hits, 3u * entry), given(entry, hits));
 }
 )";
 
@@ -34,14 +32,17 @@ Positions refined(uint i, __global const float* corners, __global const float* o
 constexpr const char* kKernels = R"(
 __kernel void coordinates(uint n, __global const float* corners, __global const float* uv, __global const float* o,
                           __global const float* d, __global const float* hits, __global float* out) {
-  const uint i = get_global_id(0);
-  if (i >= n) return;
-  const Positions places[2] = {given(i, hits), refined(i, corners, o, d, hits)};
-  const Natural corner[3] = {(Natural)(3 * i), (Natural)(3 * i + 1), (Natural)(3 * i + 2)};
+  FOR_ENTRIES(i, n)
+  const Barycentrics places[2] = {given(entry, hits), refined(entry, corners, o, d, hits)};
+  const Natural corner[3] = {3u * entry, 3u * entry + 1u, 3u * entry + 2u};
   for (uint k = 0; k < 2; ++k) {
-    Uvs at;
-    interpolateUvSets(uv, corner, &places[k], 0, &at);
-    vstore4((float4)(FIRST(at.u[0]), FIRST(at.v[0]), FIRST(at.uLow[0]), FIRST(at.vLow[0])), 2 * i + k, out);
+    Uv at;
+    interpolateUvSet(uv, corner, &places[k], 0, &at);
+    const Natural to = 8u * entry + 4u * k;
+    put(out, to, at.u[0]);
+    put(out, to + 1u, at.v[0]);
+    put(out, to + 2u, at.uLow[0]);
+    put(out, to + 3u, at.vLow[0]);
   }
 }
 )";
@@ -95,14 +96,11 @@ Hits grazingHits(test::Rng& rng, int count) {
 /// A texel of 1024 is 1e-3 of a repeat. What single precision gives is off by whole percents of one here;
 /// what the refined hit gives must be off by less than a ten-thousandth, so that no picture shows it.
 TEST(Surfel, TextureCoordinatesOfGrazingHitsAreExact) {
-  test::KernelBench bench({"shade.cl"}, std::string(kLanes) + kKernels);
+  test::LaneBench bench({"lib/surface/surfel.cl"}, std::string(kLanes) + kKernels);
   test::Rng rng(61);
   const Hits hits = grazingHits(rng, 5000);
   const auto n = static_cast<std::uint32_t>(hits.expected.size());
-  const auto out =
-      bench.map<float>("coordinates", n, 8, bench.compute.upload("corners", hits.corners),
-                       bench.compute.upload("uv", hits.uv), bench.compute.upload("o", hits.o),
-                       bench.compute.upload("d", hits.d), bench.compute.upload("hits", hits.found));
+  const auto out = bench.map<float>("coordinates", n, 8, hits.corners, hits.uv, hits.o, hits.d, hits.found);
   double given = 0, refined = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
     const auto off = [&](std::uint32_t at) {
@@ -121,15 +119,14 @@ TEST(Surfel, RefinedBarycentricsStayInTheTriangle) {
   constexpr const char* kRefine = R"(
 __kernel void refine(uint n, __global const float* corners, __global const float* o, __global const float* d,
                      __global const float* hits, __global float* out) {
-  const uint i = get_global_id(0);
-  if (i >= n) return;
-  const Positions at = refined(i, corners, o, d, hits);
-  vstore3((float3)(FIRST(at.b0), FIRST(at.b1), FIRST(at.b2)), i, out);
-  out[3 * n + 2 * i] = FIRST(at.low1);
-  out[3 * n + 2 * i + 1] = FIRST(at.low2);
+  FOR_ENTRIES(i, n)
+  const Barycentrics at = refined(entry, corners, o, d, hits);
+  put3(out, 3u * entry, real3(at.b0, at.b1, at.b2));
+  put(out + 3 * n, 2u * entry, at.low1);
+  put(out + 3 * n, 2u * entry + 1u, at.low2);
 }
 )";
-  test::KernelBench bench({"shade.cl"}, std::string(kLanes) + kRefine);
+  test::LaneBench bench({"lib/surface/surfel.cl"}, std::string(kLanes) + kRefine);
   test::Rng rng(62);
   Hits hits;
   const std::uint32_t n = 20000;
@@ -147,9 +144,7 @@ __kernel void refine(uint n, __global const float* corners, __global const float
     push(hits.d, glm::normalize(target - o));
     hits.found.insert(hits.found.end(), {glm::length(target - o), b1, b2});
   }
-  const auto out = bench.map<float>("refine", n, 5, bench.compute.upload("corners", hits.corners),
-                                    bench.compute.upload("o", hits.o), bench.compute.upload("d", hits.d),
-                                    bench.compute.upload("hits", hits.found));
+  const auto out = bench.map<float>("refine", n, 5, hits.corners, hits.o, hits.d, hits.found);
   for (std::uint32_t i = 0; i < n; ++i) {
     const float* b = out.data() + 3 * i;
     for (int k = 0; k < 3; ++k)

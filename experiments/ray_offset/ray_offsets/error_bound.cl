@@ -1,14 +1,14 @@
 // The bound of the rounding error of each coordinate, gamma(7) of its extent, along the geometric normal; then the next
 // float away from the surface (pbrt-v4: Pharr, Jakob, Humphreys 2023, 6.8.5 and 6.8.6). pbrt's triangles also refuse
 // hits within the error bound of their distance (6.8.7); ours do not.
-#include "lib/surfels.cl"
+#include "lib/surface/surfel.cl"
 
 INLINE Real rayOffsetAt(const RenderConstants* constants, const Surfel* s) {
 #if HAS(FIXED_RAY_OFFSET)
   if (!(constants->rayOffset < 0.0f)) return (Real)(constants->rayOffset);
 #endif
   const Real3 size = real3(fabs(s->n_g.x), fabs(s->n_g.y), fabs(s->n_g.z));
-  return dots(size, s->extent) * (7.0f * 5.9604645e-8f / (1.0f - 7.0f * 5.9604645e-8f));
+  return dot3(size, s->extent) * (7.0f * 5.9604645e-8f / (1.0f - 7.0f * 5.9604645e-8f));
 }
 
 /// x, or its neighbour in the direction of `offset`.
@@ -21,7 +21,7 @@ INLINE Real roundedAway(Real x, Real offset) {
 
 INLINE Real3 offsetOrigin(const RenderConstants* constants, const Surfel* s, Real3 w_i) {
   const Real bump = rayOffsetAt(constants, s);
-  const Real3 offset = scale3(dots(s->n_g, w_i) > 0.0f ? bump : -bump, s->n_g);
+  const Real3 offset = scale3(dot3(s->n_g, w_i) > 0.0f ? bump : -bump, s->n_g);
   const Real3 o = add3(s->position, offset);
   return real3(roundedAway(o.x, offset.x), roundedAway(o.y, offset.y), roundedAway(o.z, offset.z));
 }

@@ -1,6 +1,6 @@
 // The default's length along the ray itself.
 #define offsetOrigin alongGeometricNormal
-#include "lib/default_ray_offset.cl"
+#include "lib/surface/default_ray_offset.cl"
 #undef offsetOrigin
 
 /// Origin of the rays that leave along w_i.

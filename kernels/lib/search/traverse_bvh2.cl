@@ -1,15 +1,17 @@
 // Searches for one ray: the nearest triangle, and what a shadow ray meets; through the tree or through every triangle.
 // Ties go to the lowest primitive index, so every search gives the same answer. Box test after Williams et al. 2005
 // with the far distance widened (Ize 2013), so that rounding cannot hide a triangle.
-#include "lib/surfel.cl"
-#include "lib/triangle.cl"
+#include "lib/search/surface.cl"
+#include "lib/search/triangle.cl"
 
-// What the triangle test takes must not be lost to its box. Relative to t, two box distances are off by 3 roundings each, a
-// corner sheared onto the ray by 12 on each of two axes, which makes 30 · 2^-24, and t itself by 15: 32 covers either.
+// What the triangle test takes must not be lost to its box. Relative to t, two box distances are off by 3 roundings
+// each, a corner sheared onto the ray by 12 on each of two axes, which makes 30 · 2^-24, and t itself by 15: 32 covers
+// either.
 #define FAR_WIDENING 1.0000019f
 
-// Box distances as plane · (1/d) - o/d in one fma are off by what rounding took from o/d, besides their own rounding: half a
-// unit in its last place, and as much again where the margin is added. Four units are taken off near and added to far.
+// Box distances as plane · (1/d) - o/d in one fma are off by what rounding took from o/d, besides their own rounding:
+// half a unit in its last place, and as much again where the margin is added. Four units are taken off near and added
+// to far.
 #define BIAS_MARGIN 4.7683716e-7f
 
 typedef struct {
@@ -19,7 +21,9 @@ typedef struct {
   float b1, b2;
 } Hit;
 
-/// Entry distance of child c, or +inf if it is missed or lies beyond tMax. A ray that runs in the plane of a face gives
+/// The box test: entry distance of child c, or +inf if it is missed or lies beyond tMax. Wider ones (childEntries8,
+/// packetEntries8, entersChild) compute it another way and let in at least as much; SearchAgreement.RandomScenes, which
+/// holds searches with boxes to the one without, would see what they hide. A ray that runs in the plane of a face gives
 /// 0 · inf = NaN there, which every comparison below takes for inside.
 INLINE float childEntry(const Ray* r, __global const Node* node, int c, float tMax) {
   float entry = 0.0f, leave = tMax;
@@ -34,8 +38,8 @@ INLINE float childEntry(const Ray* r, __global const Node* node, int c, float tM
   return entry <= leave * FAR_WIDENING ? entry : INFINITY;
 }
 
-/// Ties: true if triangle a has a lower index in the scene than b (both in leaf order), or b is none. Looked up only then:
-/// it is one more line of memory.
+/// Ties: true if triangle a has a lower index in the scene than b (both in leaf order), or b is none. Looked up only
+/// then: it is one more line of memory.
 INLINE int comesFirst(const SceneView* scene, uint a, uint b) {
   return b == NO_HIT || scene->triangles[a].primitive < scene->triangles[b].primitive;
 }
@@ -63,7 +67,7 @@ INLINE int testOcclusion(const SceneView* scene, const Ray* r, uint index, float
   if (!intersectTriangle(r, triangle, tMax, &c) || !(c.t < tMax)) return 0;
 #if HAS(FILTERED_SHADOWS)
   if (triangle->flags & TRIANGLE_FILTERS) {
-    const float3 through = shadowTransmittance(scene, index, c.b1, c.b2, (float3)(r->d[0], r->d[1], r->d[2]));
+    const Real3 through = shadowTransmittance(scene, index, c.b1, c.b2, real3(r->d[0], r->d[1], r->d[2]));
     int blocked = 1;
     for (int k = 0; k < 3; ++k) {
       const float value = k == 0 ? through.x : (k == 1 ? through.y : through.z);
@@ -82,13 +86,13 @@ INLINE int testOcclusion(const SceneView* scene, const Ray* r, uint index, float
 }
 
 /// Transmittance after a search that did not end blocked.
-INLINE float3 transmittanceFromStops(const uint* stops) {
+INLINE Real3 transmittanceFromStops(const uint* stops) {
 #if HAS(FILTERED_SHADOWS)
-  return (float3)(stops[0] > 1048576u ? 0.0f : exp2((float)stops[0] * -1.52587890625e-5f),
-                  stops[1] > 1048576u ? 0.0f : exp2((float)stops[1] * -1.52587890625e-5f),
-                  stops[2] > 1048576u ? 0.0f : exp2((float)stops[2] * -1.52587890625e-5f));
+  return real3(stops[0] > 1048576u ? 0.0f : exp2((float)stops[0] * -1.52587890625e-5f),
+               stops[1] > 1048576u ? 0.0f : exp2((float)stops[1] * -1.52587890625e-5f),
+               stops[2] > 1048576u ? 0.0f : exp2((float)stops[2] * -1.52587890625e-5f));
 #else
-  return (float3)(1.0f);
+  return real3(1.0f, 1.0f, 1.0f);
 #endif
 }
 
@@ -122,9 +126,9 @@ Hit nearestSingle(const SceneView* scene, const Ray* r) {
   }
 }
 
-INLINE float3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
+INLINE Real3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
   uint stops[3] = {0, 0, 0};
-  if (!isFiniteRay(r)) return (float3)(1.0f);
+  if (!isFiniteRay(r)) return real3(1.0f, 1.0f, 1.0f);
   int stack[MAX_TREE_DEPTH + 4];
   int depth = 0;
   int current = 0;
@@ -133,7 +137,7 @@ INLINE float3 transmittanceSingle(const SceneView* scene, const Ray* r, float tM
       const uint packed = (uint)~current;
       const uint first = packed >> 4, count = (packed & 15u) + 1;
       for (uint i = first; i < first + count; ++i)
-        if (testOcclusion(scene, r, i, tMax, stops)) return (float3)(0.0f);
+        if (testOcclusion(scene, r, i, tMax, stops)) return real3(0.0f, 0.0f, 0.0f);
     } else {
       __global const Node* node = scene->nodes + current;
       const float t0 = childEntry(r, node, 0, tMax);
@@ -156,10 +160,10 @@ Hit nearestSingle(const SceneView* scene, const Ray* r) {
   return best;
 }
 
-INLINE float3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
+INLINE Real3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
   uint stops[3] = {0, 0, 0};
   for (uint i = 0; i < scene->triangleCount; ++i)
-    if (testOcclusion(scene, r, i, tMax, stops)) return (float3)(0.0f);
+    if (testOcclusion(scene, r, i, tMax, stops)) return real3(0.0f, 0.0f, 0.0f);
   return transmittanceFromStops(stops);
 }
 #endif

@@ -1,5 +1,5 @@
 // The eight-wide tree (host/bvh/bvh8.h) as searches see it: leaves, masks of eight lanes, the order of children.
-#include "lib/traverse_bvh2.cl"
+#include "lib/search/traverse_bvh2.cl"
 
 #if HAS(TREE) && HAS(PACKETS)
 

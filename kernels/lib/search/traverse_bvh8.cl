@@ -1,7 +1,7 @@
 // Searches for one ray at a time through the eight-wide tree: one ray against eight boxes, or eight triangles, in the
-// lanes of a float8. For rays that share no way, where a packet would drag the others along. The arithmetic of a lane is
-// that of the other searches, so the answers are the same bits.
-#include "lib/bvh8.cl"
+// lanes of a float8. For rays that share no way, where a packet would drag the others along. The arithmetic of a lane
+// is that of the other searches, so the answers are the same bits.
+#include "lib/search/bvh8.cl"
 
 #if HAS(TREE) && HAS(PACKETS)
 
@@ -48,8 +48,9 @@ INLINE Bvh8Ray bvh8Ray(const RayTable* rays, uint lane) {
   return r;
 }
 
-/// The eight children of a node: mask of those that the ray enters before tMax, and where.
-INLINE int8 wideEntries(const Bvh8Ray* r, __global const float* node, float tMax, float8* entry) {
+/// The eight children of a node: mask of those that the ray enters before tMax, and where. Lets in all that childEntry
+/// lets in, and a little more where the direction is regular.
+INLINE int8 childEntries8(const Bvh8Ray* r, __global const float* node, float tMax, float8* entry) {
   float8 enter = (float8)(0.0f), leave = (float8)(tMax);
   if (r->regular) {
     const int x = r->nearPlane[0], y = r->nearPlane[1], z = r->nearPlane[2];
@@ -75,7 +76,7 @@ INLINE int8 wideEntries(const Bvh8Ray* r, __global const float* node, float tMax
 }
 
 /// clampToBox for the triangles of a leaf.
-float8 clampToBoxes(const Bvh8Ray* r, const Leaf* leaf, float8 t) {
+float8 clampToBox8(const Bvh8Ray* r, const Leaf* leaf, float8 t) {
   float8 far[3];
   for (int a = 0; a < 3; ++a) {
     float8 lo, hi;
@@ -89,8 +90,8 @@ float8 clampToBoxes(const Bvh8Ray* r, const Leaf* leaf, float8 t) {
   return t;
 }
 
-/// The triangles of a leaf: bits of those met at 0 < t <= tMax; t of all lanes, and the areas whose ratios v/det and w/det
-/// are the barycentrics b1 and b2.
+/// intersectTriangle for a leaf's triangles: bits of those met at 0 < t <= tMax; t of all lanes, and the areas whose
+/// ratios v/det and w/det are the barycentrics b1 and b2.
 INLINE uint intersectLeaf(const Bvh8Ray* r, const Leaf* leaf, float tMax, float8* t, float8* areaV, float8* areaW,
                           float8* area) {
   const float ox = r->o[r->kx], oy = r->o[r->ky], oz = r->o[r->kz];
@@ -104,18 +105,14 @@ INLINE uint intersectLeaf(const Bvh8Ray* r, const Leaf* leaf, float tMax, float8
   const float8 by = fma(sy, bz, leafPlane(leaf, 1, r->ky) - oy);
   const float8 cx = fma(sx, cz, leafPlane(leaf, 2, r->kx) - ox);
   const float8 cy = fma(sy, cz, leafPlane(leaf, 2, r->ky) - oy);
-  const float8 u = differenceOfProducts8(cx, by, cy, bx);
-  const float8 v = differenceOfProducts8(ax, cy, ay, cx);
-  const float8 w = differenceOfProducts8(bx, ay, by, ax);
-  const int8 inside = ((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f));
+  float8 u, v, w;
+  const int8 inside = edgeTest8(ax, ay, bx, by, cx, cy, &u, &v, &w);
   const uint lanes = laneBits(inside) & leafLanes(leaf);
   if (lanes == 0) return 0;
   const float8 det = u + v + w;
-  const float8 weight = r->sz / det;
-  *t = fma(u * weight, az, fma(v * weight, bz, w * weight * cz));
-  const float8 ab = fabs(az) > fabs(bz) ? fabs(az) : fabs(bz), corners = ab > fabs(cz) ? ab : fabs(cz);
-  const int8 far = corners * fabs(r->sz) > FAR_CORNERS * fabs(*t);
-  if (lanes & laneBits(far)) *t = select(*t, clampToBoxes(r, leaf, *t), far);
+  int8 far;
+  *t = hitDistance8(u, v, w, det, (float8)(r->sz), az, bz, cz, &far);
+  if (lanes & laneBits(far)) *t = select(*t, clampToBox8(r, leaf, *t), far);
   *areaV = v, *areaW = w, *area = det;
   return lanes & laneBits((*t > 0.0f) & (*t <= tMax));
 }
@@ -152,8 +149,8 @@ INLINE int testOcclusionLeaf(const SceneView* scene, const RayTable* rays, const
   uint bits = intersectLeaf(r, &leaf, tMax, &t8, &v8, &w8, &det8);
   if (bits == 0) return 0;
 #if HAS(FILTERED_SHADOWS) || HAS(ALPHA_MASK)
-  const Ray whole = makeRay((float3)(rays->o[0][r->lane], rays->o[1][r->lane], rays->o[2][r->lane]),
-                            (float3)(rays->d[0][r->lane], rays->d[1][r->lane], rays->d[2][r->lane]));
+  const Ray whole = makeRay(real3(rays->o[0][r->lane], rays->o[1][r->lane], rays->o[2][r->lane]),
+                            real3(rays->d[0][r->lane], rays->d[1][r->lane], rays->d[2][r->lane]));
   for (; bits != 0; bits &= bits - 1)
     if (testOcclusion(scene, &whole, leaf.first + lowestBit(bits), tMax, stops)) return 1;
   return 0;
@@ -192,7 +189,7 @@ INLINE int step(const SceneView* scene, Walk* w) {
     return 1;
   }
   float8 entry;
-  const int8 entered = wideEntries(&w->r, scene->bvh8Nodes + (size_t)child * BVH8_NODE_FLOATS, w->best.t, &entry);
+  const int8 entered = childEntries8(&w->r, scene->bvh8Nodes + (size_t)child * BVH8_NODE_FLOATS, w->best.t, &entry);
   vstore8(keys, w->depth, w->waiting);
   w->groups[w->depth] = w->group;
   w->depth += anyOf8(keys != NO_CHILD);
@@ -215,7 +212,7 @@ INLINE int startWalk(const SceneView* scene, const RayTable* rays, uint* next, W
   w->best.t = rays->t[lane], w->best.triangle = NO_HIT, w->best.b1 = w->best.b2 = 0.0f;
   w->limit = keyLimit(w->best.t);
   float8 entry;
-  w->keys = childKeys(wideEntries(&w->r, scene->bvh8Nodes, w->best.t, &entry), entry);
+  w->keys = childKeys(childEntries8(&w->r, scene->bvh8Nodes, w->best.t, &entry), entry);
   w->group = 0, w->depth = 0;
   return 1;
 }
@@ -284,7 +281,7 @@ INLINE int stepShadow(const SceneView* scene, const RayTable* rays, ShadowWalk* 
   w->groups[w->depth] = w->group;
   w->depth += w->bits != 0;
   float8 entry;
-  w->bits = laneBits(wideEntries(&w->r, scene->bvh8Nodes + (size_t)child * BVH8_NODE_FLOATS, w->tMax, &entry));
+  w->bits = laneBits(childEntries8(&w->r, scene->bvh8Nodes + (size_t)child * BVH8_NODE_FLOATS, w->tMax, &entry));
   w->group = child;
   return SHADOW_ON;
 }
@@ -296,7 +293,7 @@ INLINE int startShadow(const SceneView* scene, const RayTable* rays, uint* next,
   w->tMax = rays->t[lane];
   w->stops[0] = w->stops[1] = w->stops[2] = 0;
   float8 entry;
-  w->bits = laneBits(wideEntries(&w->r, scene->bvh8Nodes, w->tMax, &entry));
+  w->bits = laneBits(childEntries8(&w->r, scene->bvh8Nodes, w->tMax, &entry));
   w->group = 0, w->depth = 0;
   return 1;
 }

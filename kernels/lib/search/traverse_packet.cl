@@ -1,12 +1,12 @@
-// Searches for sixteen neighbouring rays at once, one in each lane of a float16. The arithmetic of a lane is that of the
-// single-ray search, bit for bit, so the two agree (packet.cl).
+// Searches for sixteen neighbouring rays at once, one in each lane of a float16. The arithmetic of a lane is that of
+// the single-ray search, bit for bit, so the two agree (packet.cl).
 //
-// Through the eight-wide tree the packet goes down once, as long as its rays run the same way: bounds of its origins and
-// directions are held against eight boxes in the lanes of a float8 (interval arithmetic; Boulos, Wald, Shirley, "Geometric
-// and Arithmetic Culling Methods for Entire Ray Packets", 2006), then sixteen rays against each box that is left, and only
-// triangles whose own boxes the bounds meet are tested. Rays that share no way are walked one by one.
-#include "lib/packet.cl"
-#include "lib/traverse_bvh8.cl"
+// Through the eight-wide tree the packet goes down once, as long as its rays run the same way: bounds of its origins
+// and directions are held against eight boxes in the lanes of a float8 (interval arithmetic; Boulos, Wald, Shirley,
+// "Geometric and Arithmetic Culling Methods for Entire Ray Packets", 2006), then sixteen rays against each box that is
+// left, and only triangles whose own boxes the bounds meet are tested. Rays that share no way are walked one by one.
+#include "lib/search/packet.cl"
+#include "lib/search/traverse_bvh8.cl"
 
 #if HAS(PACKETS)
 
@@ -36,8 +36,8 @@ typedef struct {
   int together;      // 1: the rays run the same way, no direction parallel to an axis
 } PacketBounds;
 
-/// Largest difference between directions along an axis for which rays run the same way; from 0.1 to 0.25 nothing changes,
-/// above it rays of a second bounce drag one another along (experiments/).
+/// Largest difference between directions along an axis for which rays run the same way; from 0.1 to 0.25 nothing
+/// changes, above it rays of a second bounce drag one another along (experiments/).
 #define PACKET_SPREAD 0.25f
 
 INLINE PacketBounds boundPacket(const Packet* p) {
@@ -76,8 +76,8 @@ INLINE float8 greatestDistance(float8 at, float origin, float inverseLo, float i
 }
 
 /// Eight boxes (near and far planes): mask of those that some ray of the packet may enter before tMax, and the least
-/// distance at which. Rounding is monotonic, so whatever a single ray's test lets in is let in here.
-INLINE int8 packetEntries(const PacketBounds* b, const float8* near, const float8* far, float tMax, float8* entry) {
+/// distance at which. Rounding is monotonic, so whatever a single ray's test (childEntry) lets in is let in here.
+INLINE int8 packetEntries8(const PacketBounds* b, const float8* near, const float8* far, float tMax, float8* entry) {
   const float8 nearX = leastDistance(near[0], b->nearOrigin[0], b->inverseLo[0], b->inverseHi[0]);
   const float8 nearY = leastDistance(near[1], b->nearOrigin[1], b->inverseLo[1], b->inverseHi[1]);
   const float8 nearZ = leastDistance(near[2], b->nearOrigin[2], b->inverseLo[2], b->inverseHi[2]);
@@ -96,10 +96,11 @@ INLINE int8 packetChildren(const PacketBounds* b, __global const float* node, fl
     near[a] = vload8(0, node + b->nearPlane[a]);
     far[a] = vload8(0, node + (24 + 16 * a) - b->nearPlane[a]);
   }
-  return packetEntries(b, near, far, tMax, entry);
+  return packetEntries8(b, near, far, tMax, entry);
 }
 
-/// True if some ray of the packet enters lane `child` of a node before its own tMax. For packets that run together.
+/// True if some ray of the packet enters lane `child` of a node before its own tMax, by the same fma as childEntries8.
+/// For packets that run together.
 INLINE int entersChild(const Packet* p, const PacketBounds* b, float16 tMax, __global const float* node, uint child) {
   __global const float* box = node + child;
   const float16 nearX = fma((float16)(box[b->nearPlane[0]]), p->inverse[0], p->nearBias[0]);
@@ -123,7 +124,7 @@ INLINE uint packetTriangles(const PacketBounds* b, const Leaf* leaf, float tMax)
     far[a] = b->down[a] ? lo : hi;
   }
   float8 entry;
-  return laneBits(packetEntries(b, near, far, tMax, &entry)) & leafLanes(leaf);
+  return laneBits(packetEntries8(b, near, far, tMax, &entry)) & leafLanes(leaf);
 }
 
 INLINE RayTable tableOf(const Packet* p, float16 tMax) {

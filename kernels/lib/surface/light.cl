@@ -10,7 +10,7 @@ typedef struct {
 
 INLINE Real spotFactor(__global const DeviceLight* light, Real3 w_i) {
   const Real3 sum = add3(w_i, same3(load3(light->direction)));
-  const Real versine = 0.5f * dots(sum, sum);
+  const Real versine = 0.5f * dot3(sum, sum);
   const Real f = (light->versineOuter - versine) / (light->versineOuter - light->versineInner);
   const Real c = f < 1.0f ? f : (Real)(1.0f);  // inner = outer: f = +inf
   return versine < light->versineOuter ? c * c : (Real)(0.0f);
@@ -30,7 +30,7 @@ INLINE Illumination illuminationAt(__global const DeviceLight* light, Real3 p) {
 #endif
 #if HAS(POINT_LIGHTS) || HAS(SPOT_LIGHTS)
   const Real3 toLight = sub3(same3(load3(light->position)), p);
-  const Real d2 = dots(toLight, toLight);
+  const Real d2 = dot3(toLight, toLight);
   Mask reached = d2 > 0.0f;
   const Real d = sqrt(d2);
   Real factor = (Real)(1.0f);
@@ -41,7 +41,7 @@ INLINE Illumination illuminationAt(__global const DeviceLight* light, Real3 p) {
     factor = clampUnit(1.0f - r * r * r * r);
   }
 #endif
-  result.w_i = choose3(reached, normalized(toLight), result.w_i);
+  result.w_i = choose3(reached, normalize3(toLight), result.w_i);
   result.distance = d;
 #if HAS(SPOT_LIGHTS)
   if (light->kind == LIGHT_SPOT) factor *= spotFactor(light, result.w_i);

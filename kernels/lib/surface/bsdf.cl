@@ -1,6 +1,7 @@
 // Scattering at surfels: the finite part (Lambert and the glTF microfacet lobe) for direct light, and the impulses
 // (mirror reflection, refraction, straight transmission). Formulas: host/reference/README.md.
-#include "lib/surfels.cl"
+#include "lib/surface/fresnel.cl"
+#include "lib/surface/surfel.cl"
 
 INLINE Mask isSmooth(const RenderConstants* constants, const Surfel* s) { return s->roughness < constants->mirrorRoughness; }
 
@@ -8,18 +9,6 @@ INLINE Mask isSmooth(const RenderConstants* constants, const Surfel* s) { return
 INLINE Real interfaceEta(const Surfel* s) {
   const Mask outside = s->front | ((s->flags & MATERIAL_VOLUME) == 0);
   return outside ? s->ior : 1.0f / s->ior;
-}
-
-/// fresnelDielectric for each lane; total: where no light passes.
-INLINE Real fresnelDielectrics(Real cosine, Real eta, Mask* total) {
-  const Real sin2 = 1.0f - cosine * cosine;
-  const Real sin2T = (sin2 > 0.0f ? sin2 : (Real)(0.0f)) / (eta * eta);
-  *total = !(sin2T < 1.0f);
-  const Real c = sqrt(1.0f - sin2T);
-  const Real s = (cosine - eta * c) / (cosine + eta * c);
-  const Real p = (eta * cosine - c) / (eta * cosine + c);
-  const Real r = eta == 1.0f ? (Real)(0.0f) : 0.5f * (s * s + p * p);
-  return *total ? (Real)(1.0f) : r;
 }
 
 INLINE Real3 schlick(Real3 f0, Real3 f90, Real cosine) {
@@ -31,7 +20,7 @@ INLINE Real3 dielectricReflectance(const Surfel* s, Real cosine, Mask* total) {
   const Real ratio = (s->ior - 1.0f) / (s->ior + 1.0f);
   const Real r0 = ratio * ratio;
   const Mask opaque = (s->ior == 0.0f) | (r0 >= 1.0f);
-  const Real r = fresnelDielectrics(cosine, interfaceEta(s), total);
+  const Real r = fresnelDielectric(cosine, interfaceEta(s), total);
   *total = *total & !opaque;
   Real3 reflectance = real3(r, r, r);
 #if HAS(SPECULAR_EXTENSION)
@@ -47,17 +36,17 @@ INLINE Real3 dielectricReflectance(const Surfel* s, Real cosine, Mask* total) {
 
 /// f(w_i, w_o), 1/sr, without impulses; both directions on the side of n.
 INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i) {
-  const Real cosO = dots(s->n, w_o);
+  const Real cosO = dot3(s->n, w_o);
   const Real dielectric = 1.0f - s->metallic;
   const Real3 diffuse = scale3(1.0f - s->transmission, scale3((Real)(1.0f / PI), s->baseColor));
   const Mask smooth = isSmooth(constants, s);
   Real3 f = scale3(dielectric, diffuse);
 #if HAS(MICROFACET)
   if (some(!smooth)) {
-    const Real cosI = dots(s->n, w_i);
-    const Real3 h = normalized(add3(w_i, w_o));
-    const Real cosH = dots(s->n, h);
-    const Real cosD = clampUnit(dots(w_o, h));
+    const Real cosI = dot3(s->n, w_i);
+    const Real3 h = normalize3(add3(w_i, w_o));
+    const Real cosH = dot3(s->n, h);
+    const Real cosD = clampUnit(dot3(w_o, h));
     const Real squared = s->roughness * s->roughness;
     const Real alpha = squared > 1e-3f ? squared : (Real)(1e-3f);  // a mirror's lobe would be 0/0
     const Real a2 = alpha * alpha;
@@ -67,7 +56,7 @@ INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s,
         0.5f / (cosI * sqrt(a2 + (1.0f - a2) * cosO * cosO) + cosO * sqrt(a2 + (1.0f - a2) * cosI * cosI));
     const Real lobe = distribution * visibility;
     const Real3 fresnel = schlick(s->specularF0, real3(s->specularF90, s->specularF90, s->specularF90), cosD);
-    const Real largest = largestOf(fresnel.x, fresnel.y, fresnel.z);
+    const Real largest = largestOfThree(fresnel.x, fresnel.y, fresnel.z);
     f = scale3(dielectric, add3(scale3(1.0f - largest, diffuse), scale3(lobe, fresnel)));
 #if HAS(METAL)
     f = add3(f, scale3(lobe, scale3(s->metallic, schlick(s->baseColor, same3((float3)(1.0f)), cosD))));
@@ -94,8 +83,8 @@ INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, 
   Impulse impulse;
   const Mask inside = total & ((s->flags & MATERIAL_VOLUME) != 0) & (s->transmission > 0.0f);
   const Real3 aboutN = sub3(scale3(2.0f * cosine, s->n), w_o);
-  const Real3 aboutG = sub3(scale3(2.0f * dots(s->n_g, w_o), s->n_g), w_o);
-  impulse.w_i = normalized(choose3(dots(s->n_g, aboutN) > 0.0f, aboutN, aboutG));
+  const Real3 aboutG = sub3(scale3(2.0f * dot3(s->n_g, w_o), s->n_g), w_o);
+  impulse.w_i = normalize3(choose3(dot3(s->n_g, aboutN) > 0.0f, aboutN, aboutG));
   Real3 magnitude = scale3(1.0f - s->metallic, reflectance);
 #if HAS(METAL)
   magnitude = add3(magnitude, scale3(s->metallic, schlick(s->baseColor, same3((float3)(1.0f)), cosine)));
@@ -109,11 +98,11 @@ INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, 
 #if HAS(REFRACTION)
 /// Refracted direction about n, or 0 at total reflection.
 INLINE Real3 refracted(Real3 n, Real3 w_o, Real eta) {
-  const Real along = dots(n, w_o);
+  const Real along = dot3(n, w_o);
   const Real cosine = along < 1.0f ? along : (Real)(1.0f);
   const Real sin2 = 1.0f - cosine * cosine;
   const Real sin2T = (sin2 > 0.0f ? sin2 : (Real)(0.0f)) / (eta * eta);
-  const Real3 w_t = normalized(sub3(scale3(cosine / eta - sqrt(1.0f - sin2T), n), over3(w_o, eta)));
+  const Real3 w_t = normalize3(sub3(scale3(cosine / eta - sqrt(1.0f - sin2T), n), over3(w_o, eta)));
   return choose3(sin2T < 1.0f, w_t, same3((float3)(0.0f)));
 }
 #endif
@@ -129,9 +118,9 @@ INLINE Impulse transmissionImpulse(const Surfel* s, Real3 w_o, Real3 reflectance
   const Mask volume = (s->flags & MATERIAL_VOLUME) != 0;
   const Mask bends = volume & (s->ior != 0.0f) & (eta != 1.0f);
   Real3 w_t = refracted(s->n, w_o, eta);
-  w_t = choose3(dots(s->n_g, w_t) < 0.0f, w_t, refracted(s->n_g, w_o, eta));
+  w_t = choose3(dot3(s->n_g, w_t) < 0.0f, w_t, refracted(s->n_g, w_o, eta));
   impulse.w_i = choose3(bends, w_t, impulse.w_i);
-  const Mask stopped = (volume & (s->ior == 0.0f)) | (bends & !(dots(s->n_g, w_t) < 0.0f));
+  const Mask stopped = (volume & (s->ior == 0.0f)) | (bends & !(dot3(s->n_g, w_t) < 0.0f));
   impulse.magnitude = choose3(stopped, zero, impulse.magnitude);
 #endif
   impulse.w_i = choose3(s->transmission > 0.0f, impulse.w_i, minus3(w_o));
@@ -148,7 +137,7 @@ INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 
 #if HAS(IMPULSES)
 #if HAS(MIRROR) || HAS(REFRACTION) || HAS(TRANSMISSION)
   if (some(isSmooth(constants, s) | (s->transmission > 0.0f))) {
-    const Real along = dots(s->n, w_o);
+    const Real along = dot3(s->n, w_o);
     const Real cosine = along < 1.0f ? along : (Real)(1.0f);
     Mask total;
     const Real3 reflectance = dielectricReflectance(s, cosine, &total);
@@ -166,7 +155,7 @@ INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 
   const Mask thin = s->alpha < 1.0f;
   if (some(thin)) {
     // Three directions would be needed where it bends: the reflection is left out.
-    const Mask bends = ((s->flags & MATERIAL_VOLUME) != 0) & somePositive(second->magnitude);
+    const Mask bends = ((s->flags & MATERIAL_VOLUME) != 0) & anyPositive(second->magnitude);
     const Impulse reflection = *first;
     const Real3 through = choose3(bends, straight3, add3(second->magnitude, straight3));
     first->w_i = choose3(thin, back, reflection.w_i);

@@ -1,6 +1,6 @@
-// Sixteen neighbouring rays, one in each lane of a float16, and what one triangle does to them. The arithmetic of a lane is
-// that of a single ray (triangle.cl, traverse_bvh2.cl), bit for bit.
-#include "lib/traverse_bvh2.cl"
+// Sixteen neighbouring rays, one in each lane of a float16, and what one triangle does to them. The arithmetic of a
+// lane is that of a single ray (triangle.cl, traverse_bvh2.cl), bit for bit.
+#include "lib/search/traverse_bvh2.cl"
 
 #if HAS(PACKETS)
 
@@ -73,8 +73,8 @@ float16 clampToBox16(const Packet* p, __global const float* triangle, uint strid
   return t;
 }
 
-/// Lanes whose largest axis is kz and that meet a triangle at 0 < t <= tMax. Its coordinates: corner k, axis a at
-/// triangle[(3 k + a) stride].
+/// intersectTriangle for sixteen rays: lanes whose largest axis is kz and that meet a triangle at 0 < t <= tMax. Its
+/// coordinates: corner k, axis a at triangle[(3 k + a) stride].
 INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint stride, int kz, float16 tMax, float16* t,
                            float16* areaV, float16* areaW, float16* area) {
   const uint kx = kz == 2 ? 0 : kz + 1;
@@ -90,17 +90,13 @@ INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint
   const float16 by = fma(sy, bz, triangle[(3 + ky) * stride] - oy);
   const float16 cx = fma(sx, cz, triangle[(6 + kx) * stride] - ox);
   const float16 cy = fma(sy, cz, triangle[(6 + ky) * stride] - oy);
-  const float16 u = differenceOfProducts16(cx, by, cy, bx);
-  const float16 v = differenceOfProducts16(ax, cy, ay, cx);
-  const float16 w = differenceOfProducts16(bx, ay, by, ax);
-  int16 inside = ((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f));
+  float16 u, v, w;
+  int16 inside = edgeTest16(ax, ay, bx, by, cx, cy, &u, &v, &w);
   if (p->mixed) inside &= p->kz == kz;
   if (!anyOf16(inside)) return inside;
   const float16 det = u + v + w;
-  const float16 weight = p->shear[2] / det;
-  *t = fma(u * weight, az, fma(v * weight, bz, w * weight * cz));
-  const float16 ab = fabs(az) > fabs(bz) ? fabs(az) : fabs(bz), corners = ab > fabs(cz) ? ab : fabs(cz);
-  const int16 far = corners * fabs(p->shear[2]) > FAR_CORNERS * fabs(*t);
+  int16 far;
+  *t = hitDistance16(u, v, w, det, p->shear[2], az, bz, cz, &far);
   if (anyOf16(inside & far)) *t = select(*t, clampToBox16(p, triangle, stride, *t), far);
   *areaV = v, *areaW = w, *area = det;
   return inside & (*t > 0.0f) & (*t <= tMax);
@@ -170,7 +166,8 @@ INLINE int testNearestPacket(const SceneView* scene, const Packet* p, __global c
 }
 
 #if HAS(FILTERED_SHADOWS) || HAS(ALPHA_MASK)
-/// The lanes of `met` that triangle `index` (leaf order) blocks; the others may be dimmed. stops: [3][16], see testOcclusion.
+/// The lanes of `met` that triangle `index` (leaf order) blocks; the others may be dimmed. stops: [3][16], see
+/// testOcclusion.
 int16 filterOcclusion(const SceneView* scene, const Packet* p, uint index, int16 met, float16 tMax, uint* stops) {
   if (!(scene->triangles[index].flags & (TRIANGLE_FILTERS | TRIANGLE_MASKED))) return met;
   int lanes[PACKET_RAYS];
@@ -183,7 +180,7 @@ int16 filterOcclusion(const SceneView* scene, const Packet* p, uint index, int16
   }
   for (int i = 0; i < PACKET_RAYS; ++i) {
     if (!lanes[i]) continue;
-    const Ray r = makeRay((float3)(o[0][i], o[1][i], o[2][i]), (float3)(d[0][i], d[1][i], d[2][i]));
+    const Ray r = makeRay(real3(o[0][i], o[1][i], o[2][i]), real3(d[0][i], d[1][i], d[2][i]));
     uint own[3];
     for (int k = 0; k < 3; ++k) own[k] = stops[k * PACKET_RAYS + i];
     if (!testOcclusion(scene, &r, index, ends[i], own)) lanes[i] = 0;
@@ -193,8 +190,8 @@ int16 filterOcclusion(const SceneView* scene, const Packet* p, uint index, int16
 }
 #endif
 
-/// Shadow lanes against one triangle: tMax becomes -inf where the light is now blocked. stops: [3][16], see testOcclusion.
-/// 1 if a lane met it.
+/// Shadow lanes against one triangle: tMax becomes -inf where the light is now blocked. stops: [3][16], see
+/// testOcclusion. 1 if a lane met it.
 INLINE int testOcclusionPacket(const SceneView* scene, const Packet* p, __global const float* triangle, uint stride, uint index,
                                float16* tMax, uint* stops) {
   float16 t = (float16)(0.0f), v = t, w = t, det = t;

@@ -1,0 +1,169 @@
+// The surfel of a hit: what shading needs to know of the surface, evaluated from vertices, material and textures.
+// Conventions: host/reference/README.md.
+#include "lib/surface/material.cl"
+
+typedef struct {
+  Real3 position;   // world, m
+  Real3 n_g;        // unit geometric normal, turned to the viewer
+  Real3 n;          // unit shading normal, turned likewise
+  Real3 baseColor;  // linear
+  Real alpha;       // coverage a
+  Real metallic;
+  Real roughness;
+  Real transmission;
+  Real3 specularF0;  // dielectric reflectance at normal incidence, and at grazing incidence
+  Real specularF90;
+  Real3 emission;  // W/(m² sr), already 0 on a side that does not emit
+  Real ior;
+  Real3 extent;  // blend of the corners' sizes, axis by axis: what rounding errors of the position are measured by; m
+  Mask front;
+  Natural flags;  // MATERIAL_…
+  Real3 sigma_a;
+} Surfel;
+
+INLINE Real3 blend(const TrianglePoint* at, Real3 a, Real3 b, Real3 c) {
+  return add3(add3(scale3(at->b0, a), scale3(at->b1, b)), scale3(at->b2, c));
+}
+
+INLINE Real3 fma3(Real s, Real3 v, Real3 plus) { return real3(fma(s, v.x, plus.x), fma(s, v.y, plus.y), fma(s, v.z, plus.z)); }
+
+/// Barycentrics of the hits at distance t of the rays o + t d, found again from where those points lie beside the first
+/// corner: a search's own are off by the rounding of distances to the ray's origin, which a texture shows on a far or
+/// slanted triangle. Solved once for (b1, b2) and once more for what they leave over; every difference keeps what it
+/// lost. An error of t is along d, and changes nothing. Clamped to the triangle; `found` where it is seen from its
+/// edge.
+INLINE Barycentrics refinedBarycentrics(Real3 p0, Real3 p1, Real3 p2, Real3 o, Real3 d, Real t, Barycentrics found) {
+  const Real3 e1 = sub3(p1, p0), e2 = sub3(p2, p0);
+  const Real3 from = sub3(o, p0), along = scale3(t, d), beside = add3(from, along);
+  const Real3 besideLow = add3(add3(sumError3(o, minus3(p0), from), fma3(t, d, minus3(along))), sumError3(from, along, beside));
+  const Real3 across1 = cross3(e2, d), across2 = cross3(d, e1);
+  const Real inverse = 1.0f / dot3(e1, across1);
+  const Real free1 = dot3(beside, across1) * inverse, free2 = dot3(beside, across2) * inverse;
+  const Mask seen = isfinite(free1) & isfinite(free2);
+  Barycentrics at;
+  const Real b1 = clampUnit(free1), room = 1.0f - b1, upper = free2 < room ? free2 : room;
+  const Real b2 = free2 > 0.0f ? upper : (Real)(0.0f);
+  const Real3 part1 = scale3(b1, e1), part2 = scale3(b2, e2);
+  const Real3 rest1 = sub3(beside, part1), rest2 = sub3(rest1, part2);
+  const Real3 left = add3(sumError3(beside, minus3(part1), rest1), sumError3(rest1, minus3(part2), rest2));
+  const Real3 lost1 = add3(fma3(b1, e1, minus3(part1)), scale3(b1, sumError3(p1, minus3(p0), e1)));
+  const Real3 lost2 = add3(fma3(b2, e2, minus3(part2)), scale3(b2, sumError3(p2, minus3(p0), e2)));
+  const Real3 rest = add3(rest2, add3(besideLow, sub3(sub3(left, lost1), lost2)));
+  const Mask inside = seen & (b1 == free1) & (b2 == free2);
+  at.b0 = seen ? 1.0f - b1 - b2 : found.b0;
+  at.b1 = seen ? b1 : found.b1;
+  at.b2 = seen ? b2 : found.b2;
+  at.low1 = inside ? dot3(rest, across1) * inverse : (Real)(0.0f);
+  at.low2 = inside ? dot3(rest, across2) * inverse : (Real)(0.0f);
+  return at;
+}
+
+#if HAS(VERTEX_NORMALS)
+/// Interpolated vertex normal, or n_g where a corner has none or the sum is useless.
+INLINE Real3 vertexNormalAt(const SceneView* scene, const TrianglePoint* at, Real3 n_g) {
+  if (!scene->normals) return n_g;
+  const Real3 a = gather3(scene->normals, at->corner[0] * 3u), b = gather3(scene->normals, at->corner[1] * 3u),
+              c = gather3(scene->normals, at->corner[2] * 3u);
+  const Mask missing = (dot3(a, a) == 0.0f) | (dot3(b, b) == 0.0f) | (dot3(c, c) == 0.0f);
+  const Real3 n = normalize3(blend(at, a, b, c));
+  return choose3(missing, n_g, choose3(isFinite3(n), n, n_g));
+}
+#endif
+
+#if HAS(TEXTURES) && HAS(NORMAL_TEXTURE)
+/// n tilted by the normal map; n itself where there is none or no tangent to lay it along.
+INLINE Real3 mappedNormal(const SceneView* scene, const TrianglePoint* at, Real3 n) {
+  const Natural slots = MATERIAL_BITS(at, normalTexture);
+  const Mask mapped = slots < 0x80000000u;
+  if (!scene->tangents || !some(mapped)) return n;
+  const Real3 along = blend(at, gather3(scene->tangents, at->corner[0] * 4u), gather3(scene->tangents, at->corner[1] * 4u),
+                            gather3(scene->tangents, at->corner[2] * 4u));
+  const Real3 tangent = normalize3(sub3(along, scale3(dot3(n, along), n)));
+  const Real3 bitangent = scale3(gather(scene->tangents + 3, at->corner[0] * 4u), cross3(n, tangent));
+  const Rgba texel = textureAt(scene, at, slots, 0);
+  const Real scale = MATERIAL(at, normalScale);
+  const Real x = (texel.c[0] * 2.0f - 1.0f) * scale, y = (texel.c[1] * 2.0f - 1.0f) * scale, z = texel.c[2] * 2.0f - 1.0f;
+  const Real3 tilted = normalize3(add3(add3(scale3(x, tangent), scale3(y, bitangent)), scale3(z, n)));
+  return choose3(mapped & isFinite3(tangent) & isFinite3(tilted), tilted, n);
+}
+#endif
+
+/// Reflectance at normal and grazing incidence of the dielectric part (KHR_materials_ior, KHR_materials_specular).
+INLINE void specularReflectance(const SceneView* scene, const TrianglePoint* at, Surfel* s) {
+  const Real ratio = (s->ior - 1.0f) / (s->ior + 1.0f);
+  const Real r0 = s->ior == 0.0f ? (Real)(1.0f) : ratio * ratio;
+  s->specularF0 = real3(r0, r0, r0);
+  s->specularF90 = (Real)(1.0f);
+#if HAS(SPECULAR_EXTENSION)
+  Real strength = MATERIAL(at, specular);
+  Real3 tint = MATERIAL3(at, specularColor);
+#if HAS(TEXTURES) && HAS(SPECULAR_TEXTURE)
+  const Rgba specular = textureAt(scene, at, MATERIAL_BITS(at, specularTexture), 0);
+  strength *= specular.c[3];
+#endif
+#if HAS(TEXTURES) && HAS(SPECULAR_COLOR_TEXTURE)
+  const Rgba specularColor = textureAt(scene, at, MATERIAL_BITS(at, specularColorTexture), 1);
+  tint = mul3(tint, real3(specularColor.c[0], specularColor.c[1], specularColor.c[2]));
+#endif
+  const Real3 f0 = scale3(r0, tint), one = same3((float3)(1.0f));
+  s->specularF0 = scale3(strength, real3(f0.x < 1.0f ? f0.x : one.x, f0.y < 1.0f ? f0.y : one.y, f0.z < 1.0f ? f0.z : one.z));
+  s->specularF90 = strength;
+#endif
+}
+
+/// What the material says at the hit, textures included.
+INLINE void materialAt(const SceneView* scene, const TrianglePoint* at, Surfel* s) {
+  s->flags = MATERIAL_BITS(at, flags);
+  const Rgba base = baseColorAt(scene, at);
+  s->baseColor = real3(base.c[0], base.c[1], base.c[2]);
+  s->alpha = (Real)(1.0f);
+#if HAS(ALPHA_BLEND)
+  s->alpha = (s->flags & MATERIAL_BLEND) != 0 ? clampUnit(base.c[3]) : s->alpha;
+#endif
+  metallicRoughnessAt(scene, at, &s->metallic, &s->roughness);
+  s->transmission = transmissionAt(scene, at);
+  s->ior = MATERIAL(at, ior);
+  s->sigma_a = MATERIAL3(at, sigma_a);
+  specularReflectance(scene, at, s);
+  s->emission = same3((float3)(0.0f));
+#if HAS(EMISSION)
+  Real3 emission = MATERIAL3(at, emission);
+#if HAS(TEXTURES) && HAS(EMISSION_TEXTURE)
+  const Rgba glow = textureAt(scene, at, MATERIAL_BITS(at, emissionTexture), 1);
+  emission = mul3(emission, real3(glow.c[0], glow.c[1], glow.c[2]));
+#endif
+  s->emission = choose3(s->front | ((s->flags & MATERIAL_DOUBLE_SIDED) != 0), emission, s->emission);
+#endif
+}
+
+/// The surfel at the hit (triangle, t, b1, b2) of the ray o + t d.
+INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, Real3 d, Real t, Real b1, Real b2) {
+  Surfel s;
+  const Barycentrics found = barycentrics(b1, b2);
+  TrianglePoint at = trianglePoint(scene, triangleIndex, &found);
+  const Real3 p0 = at.p0, p1 = at.p1, p2 = at.p2;
+#if HAS(TEXTURES)
+  // For texture coordinates alone: what no texture shows keeps its bits whether this is compiled or not.
+  const Barycentrics refined = refinedBarycentrics(p0, p1, p2, o, d, t, found);
+  at.uv = uvAt(scene, at.corner, &refined);
+#else
+  at.uv = uvAt(scene, at.corner, &found);
+#endif
+  s.position = blend(&at, p0, p1, p2);
+  s.extent = blend(&at, real3(fabs(p0.x), fabs(p0.y), fabs(p0.z)), real3(fabs(p1.x), fabs(p1.y), fabs(p1.z)),
+                   real3(fabs(p2.x), fabs(p2.y), fabs(p2.z)));
+  const Real3 n_g = normalize3(cross3(sub3(p1, p0), sub3(p2, p0)));
+  s.front = dot3(n_g, d) < 0.0f;
+  Real3 n = n_g;
+#if HAS(VERTEX_NORMALS)
+  n = vertexNormalAt(scene, &at, n_g);
+#endif
+#if HAS(TEXTURES) && HAS(NORMAL_TEXTURE)
+  n = mappedNormal(scene, &at, n);
+#endif
+  s.n_g = choose3(s.front, n_g, minus3(n_g));
+  n = choose3(s.front, n, minus3(n));
+  s.n = choose3(dot3(n, d) < 0.0f, n, s.n_g);
+  materialAt(scene, &at, &s);
+  return s;
+}

@@ -106,9 +106,4 @@ nlohmann::ordered_json settingsToJson(const Settings& settings);
 /// The statistics file.
 nlohmann::ordered_json statsToJson(const Stats& stats);
 
-const char* toString(Search search);
-const char* toString(Sampler sampler);
-const char* toString(ImpulseMode mode);
-const char* toString(Lanes lanes);
-
 }  // namespace whittle

@@ -82,7 +82,7 @@ INLINE float4 baseColorAt(const SceneView* scene, const TrianglePoint* p) {
   __global const DeviceMaterial* m = p->material;
   float4 c = (float4)(m->baseColor[0], m->baseColor[1], m->baseColor[2], m->baseColor[3]);
 #if HAS(TEXTURES) && HAS(BASE_COLOR_TEXTURE)
-  if (m->baseColorTexture >= 0) c *= sampleTexture(scene, m->baseColorTexture, &p->uv, 1);
+  if (m->baseColorTexture >= 0) c *= sampleTexture(scene, m->baseColorTexture, &p->uv, baseColorTextureEncoding);
 #endif
 #if HAS(VERTEX_COLORS)
   if (scene->colors) {
@@ -114,11 +114,12 @@ INLINE float3 shadowTransmittance(const SceneView* scene, uint triangleIndex, fl
   float transmission = m->transmission;
   float metallic = m->metallic;
 #if HAS(TEXTURES) && HAS(TRANSMISSION_TEXTURE)
-  if (m->transmissionTexture >= 0) transmission *= sampleTexture(scene, m->transmissionTexture, &p.uv, 0).x;
+  if (m->transmissionTexture >= 0)
+    transmission *= sampleTexture(scene, m->transmissionTexture, &p.uv, transmissionTextureEncoding).x;
 #endif
 #if HAS(TEXTURES) && HAS(METALLIC_ROUGHNESS_TEXTURE)
   if (m->metallicRoughnessTexture >= 0)
-    metallic *= sampleTexture(scene, m->metallicRoughnessTexture, &p.uv, 0).z;
+    metallic *= sampleTexture(scene, m->metallicRoughnessTexture, &p.uv, metallicRoughnessTextureEncoding).z;
 #endif
   metallic = clamp(metallic, 0.0f, 1.0f);
   if (transmission > 0.0f && !(m->flags & MATERIAL_UNLIT)) {

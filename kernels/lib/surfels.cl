@@ -118,6 +118,8 @@ INLINE Texels textureAt(const SceneView* scene, const Places* at, Natural slots,
   if (!some(used)) return none;
   return chooseTexels(used, sampleTextures(scene, used ? slots : (Natural)(0), &at->uv, srgb), none);
 }
+/// The same by the slot's name, its colours stored as scene_tables.h says.
+#define TEXTURE_AT(scene, at, slot) textureAt(scene, at, MATERIAL_BITS(at, slot), slot##Encoding)
 #endif
 
 #if HAS(VERTEX_NORMALS) || HAS(VERTEX_COLORS) || HAS(TEXTURES)
@@ -169,7 +171,7 @@ INLINE Real3 baseColorsAt(const SceneView* scene, const Places* at, Real* alpha)
   Real c[4];
   for (uint n = 0; n < 4; ++n) c[n] = wordOf(&at->material, word + n);
 #if HAS(TEXTURES) && HAS(BASE_COLOR_TEXTURE)
-  const Texels texel = textureAt(scene, at, MATERIAL_BITS(at, baseColorTexture), 1);
+  const Texels texel = TEXTURE_AT(scene, at, baseColorTexture);
   for (uint n = 0; n < 4; ++n) c[n] *= texel.c[n];
 #endif
 #if HAS(VERTEX_COLORS)
@@ -205,7 +207,7 @@ INLINE Real3 mappedNormals(const SceneView* scene, const Places* at, Real3 n) {
                             gather3(scene->tangents, at->corner[2] * 4u));
   const Real3 tangent = normalized(sub3(along, scale3(dots(n, along), n)));
   const Real3 bitangent = scale3(gather(scene->tangents + 3, at->corner[0] * 4u), crosses(n, tangent));
-  const Texels texel = textureAt(scene, at, slots, 0);
+  const Texels texel = textureAt(scene, at, slots, normalTextureEncoding);
   const Real scale = MATERIAL(at, normalScale);
   const Real x = (texel.c[0] * 2.0f - 1.0f) * scale, y = (texel.c[1] * 2.0f - 1.0f) * scale, z = texel.c[2] * 2.0f - 1.0f;
   const Real3 tilted = normalized(add3(add3(scale3(x, tangent), scale3(y, bitangent)), scale3(z, n)));
@@ -223,11 +225,11 @@ INLINE void specularReflectance(const SceneView* scene, const Places* at, Surfel
   Real strength = MATERIAL(at, specular);
   Real3 tint = MATERIAL3(at, specularColor);
 #if HAS(TEXTURES) && HAS(SPECULAR_TEXTURE)
-  const Texels specular = textureAt(scene, at, MATERIAL_BITS(at, specularTexture), 0);
+  const Texels specular = TEXTURE_AT(scene, at, specularTexture);
   strength *= specular.c[3];
 #endif
 #if HAS(TEXTURES) && HAS(SPECULAR_COLOR_TEXTURE)
-  const Texels specularColor = textureAt(scene, at, MATERIAL_BITS(at, specularColorTexture), 1);
+  const Texels specularColor = TEXTURE_AT(scene, at, specularColorTexture);
   tint = mul3(tint, real3(specularColor.c[0], specularColor.c[1], specularColor.c[2]));
 #endif
   const Real3 f0 = scale3(r0, tint), one = same3((float3)(1.0f));
@@ -248,7 +250,7 @@ INLINE void materialAt(const SceneView* scene, const Places* at, Surfel* s) {
   s->metallic = MATERIAL(at, metallic);
   s->roughness = MATERIAL(at, roughness);
 #if HAS(TEXTURES) && HAS(METALLIC_ROUGHNESS_TEXTURE)
-  const Texels metallicRoughness = textureAt(scene, at, MATERIAL_BITS(at, metallicRoughnessTexture), 0);
+  const Texels metallicRoughness = TEXTURE_AT(scene, at, metallicRoughnessTexture);
   s->metallic *= metallicRoughness.c[2];
   s->roughness *= metallicRoughness.c[1];
 #endif
@@ -256,7 +258,7 @@ INLINE void materialAt(const SceneView* scene, const Places* at, Surfel* s) {
   s->roughness = clampUnit(s->roughness);
   s->transmission = MATERIAL(at, transmission);
 #if HAS(TEXTURES) && HAS(TRANSMISSION_TEXTURE)
-  const Texels transmission = textureAt(scene, at, MATERIAL_BITS(at, transmissionTexture), 0);
+  const Texels transmission = TEXTURE_AT(scene, at, transmissionTexture);
   s->transmission *= transmission.c[0];
 #endif
   s->ior = MATERIAL(at, ior);
@@ -266,7 +268,7 @@ INLINE void materialAt(const SceneView* scene, const Places* at, Surfel* s) {
 #if HAS(EMISSION)
   Real3 emission = MATERIAL3(at, emission);
 #if HAS(TEXTURES) && HAS(EMISSION_TEXTURE)
-  const Texels glow = textureAt(scene, at, MATERIAL_BITS(at, emissionTexture), 1);
+  const Texels glow = TEXTURE_AT(scene, at, emissionTexture);
   emission = mul3(emission, real3(glow.c[0], glow.c[1], glow.c[2]));
 #endif
   s->emission = choose3(s->front | ((s->flags & MATERIAL_DOUBLE_SIDED) != 0), emission, s->emission);

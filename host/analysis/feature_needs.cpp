@@ -1,5 +1,5 @@
-// The table of needs follows the conditions of kernels/shade.cl, occlude.cl and kernels/lib; what
-// --keep-features keeps is closed under it.
+// The table of needs follows the conditions of kernels/shade.cl, occlude.cl and kernels/lib, and
+// tests/render/features_test.cpp holds it against them; what --keep-features keeps is closed under it.
 #include "analysis/feature_needs.h"
 
 #include <fmt/format.h>
@@ -8,8 +8,6 @@
 
 namespace whittle {
 namespace {
-
-constexpr std::uint64_t bitOf(Feature f) { return std::uint64_t{1} << static_cast<int>(f); }
 
 std::uint64_t bitsOf(const std::vector<Feature>& features) {
   std::uint64_t bits = 0;
@@ -41,24 +39,31 @@ std::map<Feature, std::string> barredFeatures(const Settings& s) {
   return barred;
 }
 
-}  // namespace
+/// What changes how a surface answers to light shows where there is light, or in an impulse.
+const std::vector<Feature> kScattering{Feature::LIGHTS, Feature::IMPULSES};
 
-const std::vector<FeatureNeed>& featureNeeds() {
+/// Light is that of some type, a range that of one with a place.
+std::vector<FeatureNeed> needsOfLights() {
   using F = Feature;
-  // What changes how a surface answers to light shows where there is light, or in an impulse.
-  const std::vector<F> scattering{F::LIGHTS, F::IMPULSES};
-  static const std::vector<FeatureNeed> needs{
-      {F::SHADOWS, {F::LIGHTS}},
-      {F::FILTERED_SHADOWS, {F::SHADOWS}},
-      {F::LIGHTS, {F::POINT_LIGHTS, F::DIRECTIONAL_LIGHTS, F::SPOT_LIGHTS}},
-      {F::POINT_LIGHTS, {F::LIGHTS}},
-      {F::DIRECTIONAL_LIGHTS, {F::LIGHTS}},
-      {F::SPOT_LIGHTS, {F::LIGHTS}},
-      {F::LIGHT_RANGE, {F::POINT_LIGHTS, F::SPOT_LIGHTS}},
+  std::vector<F> types, placed;
+  for (const LightType& type : kLightTypes) {
+    types.push_back(featureOf(type.kind));
+    if (type.isPlaced) placed.push_back(featureOf(type.kind));
+  }
+  std::vector<FeatureNeed> needs{
+      {F::SHADOWS, {F::LIGHTS}}, {F::FILTERED_SHADOWS, {F::SHADOWS}}, {F::LIGHTS, types}};
+  for (const F type : types) needs.push_back({type, {F::LIGHTS}});
+  needs.push_back({F::LIGHT_RANGE, placed});
+  return needs;
+}
+
+std::vector<FeatureNeed> otherNeeds() {
+  using F = Feature;
+  return {
       {F::MICROFACET, {F::LIGHTS}},
       {F::METAL, {F::MICROFACET, F::MIRROR, F::REFRACTION}},
-      {F::SPECULAR_EXTENSION, scattering},
-      {F::VERTEX_NORMALS, scattering},
+      {F::SPECULAR_EXTENSION, kScattering},
+      {F::VERTEX_NORMALS, kScattering},
       {F::VERTEX_COLORS, {F::LIGHTS, F::IMPULSES, F::UNLIT, F::ALPHA_MASK}},
       // Impulses: where they start, what they are called, how many there are.
       {F::MIRROR, {F::IMPULSES}},
@@ -70,30 +75,41 @@ const std::vector<FeatureNeed>& featureNeeds() {
       {F::ONE_IMPULSE, {F::IMPULSES}},
       {F::CUTOFF, {F::IMPULSES}},
       {F::FIXED_RAY_OFFSET, {F::SHADOWS, F::IMPULSES}},
-      // A texture is read by a slot, at coordinates.
-      {F::TEXTURES,
-       {F::BASE_COLOR_TEXTURE, F::METALLIC_ROUGHNESS_TEXTURE, F::NORMAL_TEXTURE, F::EMISSION_TEXTURE,
-        F::SPECULAR_TEXTURE, F::SPECULAR_COLOR_TEXTURE, F::TRANSMISSION_TEXTURE}},
-      {F::TEXTURES, {F::UV0, F::UV1}},
-      {F::UV0, {F::TEXTURES}},
-      {F::UV1, {F::TEXTURES}},
-      {F::NEAREST_FILTER, {F::TEXTURES}},
-      {F::BASE_COLOR_TEXTURE, {F::TEXTURES}},
-      {F::BASE_COLOR_TEXTURE, {F::LIGHTS, F::IMPULSES, F::UNLIT, F::ALPHA_MASK}},
-      {F::METALLIC_ROUGHNESS_TEXTURE, {F::TEXTURES}},
-      {F::METALLIC_ROUGHNESS_TEXTURE, scattering},
-      {F::NORMAL_TEXTURE, {F::TEXTURES}},
-      {F::NORMAL_TEXTURE, scattering},
-      {F::EMISSION_TEXTURE, {F::TEXTURES}},
-      {F::EMISSION_TEXTURE, {F::EMISSION}},
-      {F::SPECULAR_TEXTURE, {F::TEXTURES}},
-      {F::SPECULAR_TEXTURE, {F::SPECULAR_EXTENSION}},
-      {F::SPECULAR_COLOR_TEXTURE, {F::TEXTURES}},
-      {F::SPECULAR_COLOR_TEXTURE, {F::SPECULAR_EXTENSION}},
-      {F::TRANSMISSION_TEXTURE, {F::TEXTURES}},
-      {F::TRANSMISSION_TEXTURE, {F::TRANSMISSION}},
       {F::BACKGROUND_MAP, {F::BACKGROUND}},
   };
+}
+
+/// A texture is read by a slot, at coordinates.
+std::vector<FeatureNeed> needsOfTextures() {
+  using enum Feature;
+#define WHITTLE_FEATURE(slot, FEATURE, encoding, factor, OTHERS) FEATURE,
+  std::vector<FeatureNeed> needs{{TEXTURES, {WHITTLE_TEXTURE_SLOTS(WHITTLE_FEATURE)}},
+                                 {TEXTURES, {UV0, UV1}},
+                                 {UV0, {TEXTURES}},
+                                 {UV1, {TEXTURES}},
+                                 {NEAREST_FILTER, {TEXTURES}}};
+#undef WHITTLE_FEATURE
+#define WHITTLE_LIST(...) {__VA_ARGS__}
+#define WHITTLE_NEEDS(slot, FEATURE, encoding, factor, OTHERS) \
+  needs.push_back({FEATURE, {TEXTURES}});                      \
+  needs.push_back({FEATURE, WHITTLE_LIST OTHERS});
+  WHITTLE_TEXTURE_SLOTS(WHITTLE_NEEDS)
+#undef WHITTLE_NEEDS
+#undef WHITTLE_LIST
+  return needs;
+}
+
+std::vector<FeatureNeed> allNeeds() {
+  std::vector<FeatureNeed> needs = needsOfLights();
+  for (const auto& more : {otherNeeds(), needsOfTextures()})
+    needs.insert(needs.end(), more.begin(), more.end());
+  return needs;
+}
+
+}  // namespace
+
+const std::vector<FeatureNeed>& featureNeeds() {
+  static const std::vector<FeatureNeed> needs = allNeeds();
   return needs;
 }
 

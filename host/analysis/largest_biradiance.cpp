@@ -77,7 +77,7 @@ std::vector<glm::dvec3> largestBiradiance(const Scene& scene) {
   std::vector<glm::dvec3> sums(scene.materials.size(), glm::dvec3(0));
   for (const Light& light : scene.lights) {
     const glm::dvec3 intensity = glm::abs(glm::dvec3(light.intensity));
-    if (light.kind == LightKind::Directional) {
+    if (!typeOf(light.kind).isPlaced) {
       for (auto& sum : sums) sum += intensity;
       continue;
     }

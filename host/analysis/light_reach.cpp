@@ -75,9 +75,9 @@ LitBounds litBounds(const Scene& scene, const std::vector<std::uint8_t>& lit) {
 std::string whyDark(const Light& light, const LitBounds& bounds) {
   if (isBlack(light.intensity)) return "gives no light";
   if (!(bounds.lo.x <= bounds.hi.x)) return "no surface answers to light";
-  if (light.kind == LightKind::Directional) return "";
+  if (!typeOf(light.kind).isPlaced) return "";
   if (outOfRange(light, bounds)) return "out of range of every triangle";
-  if (light.kind == LightKind::Spot && shinesPast(light, bounds)) return "shines past every triangle";
+  if (typeOf(light.kind).hasCone && shinesPast(light, bounds)) return "shines past every triangle";
   return "";
 }
 

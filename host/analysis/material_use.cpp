@@ -6,6 +6,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "scene/material_predicates.h"
+
 namespace whittle {
 namespace {
 
@@ -42,6 +44,16 @@ float leastAlphaAtHits(const Material& m, const AlphaSource& source) {
   return least;
 }
 
+bool isZero(float factor) { return factor == 0.0F; }
+bool isZero(const glm::vec3& factor) { return factor == glm::vec3(0.0F); }
+
+void dropTexturesTimes0(Material& m) {
+#define WHITTLE_DROP(slot, FEATURE, encoding, factor, OTHERS) \
+  if (isZero(factor)) m.slot = {};
+  WHITTLE_TEXTURE_SLOTS(WHITTLE_DROP)
+#undef WHITTLE_DROP
+}
+
 class Bits {
  public:
   template <typename... Values>
@@ -66,48 +78,37 @@ Material asRead(const Material& m, const Settings& settings) {
   read.name.clear();
   read.occlusionStrength = 1.0F;
   read.occlusionTexture = {};
-  if (read.emission == glm::vec3(0.0F)) {
-    read.emissionTexture = {};
-    read.doubleSided = false;  // decides which sides emit, nothing else
-  }
-  if (read.transmission == 0.0F) read.transmissionTexture = {};
-  if (read.specular == 0.0F) read.specularTexture = {};
-  if (read.specularColor == glm::vec3(0.0F)) read.specularColorTexture = {};
+  if (!emits(read)) read.doubleSided = false;  // decides which sides emit, nothing else
+  dropTexturesTimes0(read);
   if (!read.normalTexture.used()) read.normalScale = 1.0F;
   if (!read.volume) read.sigma_a = glm::vec3(0.0F);
-  if (read.alphaMode != AlphaMode::Mask) read.alphaCutoff = 0.5F;
-  for (TextureSlot* slot : readSlots(read))
-    if (!slot->used()) *slot = {};
+  if (!isMasked(read)) read.alphaCutoff = 0.5F;
+  for (const auto slot : kTextureSlots)
+    if (!(read.*slot).used()) read.*slot = {};
   return read;
 }
 
 std::string bitsOf(const Material& m) {
   Bits bits;
-  bits.add(m.baseColor, m.metallic, m.roughness, m.normalScale, m.emission, m.ior, m.specular,
-           m.specularColor, m.transmission, m.volume, m.sigma_a, m.unlit, m.alphaMode, m.alphaCutoff,
-           m.doubleSided);
-  for (const TextureSlot* slot : readSlots(m)) bits.add(*slot);
+#define WHITTLE_VECTOR(name, size) bits.add(m.name);
+#define WHITTLE_SCALAR(name) bits.add(m.name);
+#define WHITTLE_SLOT(slot, FEATURE, encoding, factor, OTHERS) bits.add(m.slot);
+  WHITTLE_MATERIAL_FACTORS(WHITTLE_VECTOR, WHITTLE_SCALAR)
+  WHITTLE_TEXTURE_SLOTS(WHITTLE_SLOT)
+#undef WHITTLE_VECTOR
+#undef WHITTLE_SCALAR
+#undef WHITTLE_SLOT
+  bits.add(m.volume, m.unlit, m.alphaMode, m.doubleSided);
   return bits.text;
 }
 
-std::array<TextureSlot*, 7> readSlots(Material& m) {
-  return {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,      &m.emissionTexture,
-          &m.specularTexture,  &m.specularColorTexture,     &m.transmissionTexture};
-}
-
-std::array<const TextureSlot*, 7> readSlots(const Material& m) {
-  return {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,      &m.emissionTexture,
-          &m.specularTexture,  &m.specularColorTexture,     &m.transmissionTexture};
-}
-
 bool maskIsNeedless(const Material& m, const AlphaSource& source) {
-  return m.alphaMode == AlphaMode::Mask && leastAlphaAtHits(m, source) >= m.alphaCutoff;
+  return isMasked(m) && leastAlphaAtHits(m, source) >= m.alphaCutoff;
 }
 
 bool blendIsNeedless(const Material& m, const AlphaSource& source) {
   // Weights of vertex colours do not add up to 1 exactly.
-  return m.alphaMode == AlphaMode::Blend && m.baseColor.a >= 1.0F && source.leastTexel == 255 &&
-         !source.coloured;
+  return blends(m) && m.baseColor.a >= 1.0F && source.leastTexel == 255 && !source.coloured;
 }
 
 }  // namespace whittle

@@ -1,7 +1,6 @@
 // What the kernels read of a material.
 #pragma once
 
-#include <array>
 #include <string>
 
 #include "scene/scene.h"
@@ -15,10 +14,6 @@ Material asRead(const Material& material, const Settings& settings);
 
 /// Equal for materials that are equal in every bit, and only for them.
 std::string bitsOf(const Material& material);
-
-/// The slots of which a kernel may read texels.
-std::array<TextureSlot*, 7> readSlots(Material& material);
-std::array<const TextureSlot*, 7> readSlots(const Material& material);
 
 /// Bounds of the alpha of vertex colours.
 struct AlphaBounds {

@@ -17,6 +17,7 @@
 #include "analysis/duplicate_images.h"
 #include "analysis/light_reach.h"
 #include "analysis/material_use.h"
+#include "scene/material_predicates.h"
 
 namespace whittle {
 namespace {
@@ -88,12 +89,12 @@ void dropNeedlessAlpha(const Scene& scene, const Flags& used, std::vector<Materi
     }
     if (!needless()) continue;
     source.coloured = !scene.colors.empty();
-    if (source.coloured && m.alphaMode == AlphaMode::Mask) {
+    if (source.coloured && isMasked(m)) {
       if (colours.empty()) colours = vertexAlphas(scene);
       source.colours = colours[i];
     }
     if (!needless()) continue;
-    ++(m.alphaMode == AlphaMode::Mask ? pruning.needlessMasks : pruning.needlessBlends);
+    ++(isMasked(m) ? pruning.needlessMasks : pruning.needlessBlends);
     m.alphaMode = AlphaMode::Opaque;
     m.alphaCutoff = Material{}.alphaCutoff;
   }
@@ -103,12 +104,13 @@ void dropNeedlessAlpha(const Scene& scene, const Flags& used, std::vector<Materi
 void shareImages(const Scene& scene, const Flags& used, std::vector<Material>& read, PruningReport& pruning) {
   Flags wanted(scene.images.size());
   for (std::size_t i = 0; i < read.size(); ++i)
-    for (const TextureSlot* slot : readSlots(std::as_const(read[i])))
-      if (used[i] && slot->used()) wanted[static_cast<std::size_t>(slot->image)] = 1;
+    for (const auto slot : kTextureSlots)
+      if (used[i] && (read[i].*slot).used()) wanted[static_cast<std::size_t>((read[i].*slot).image)] = 1;
   const auto first = firstAlike(scene.images, wanted);
   for (Material& m : read)
-    for (TextureSlot* slot : readSlots(m))
-      if (slot->used()) slot->image = static_cast<int>(first[static_cast<std::size_t>(slot->image)]);
+    for (const auto slot : kTextureSlots)
+      if (int& image = (m.*slot).image; image >= 0)
+        image = static_cast<int>(first[static_cast<std::size_t>(image)]);
   pruning.images.all = scene.images.size();
   for (std::uint32_t i = 0; i < first.size(); ++i) {
     pruning.images.unused += !wanted[i];
@@ -138,14 +140,15 @@ void keepMaterials(const Flags& used, const std::vector<Material>& read, PrunedS
 void keepImages(std::size_t imageCount, PrunedScene& pruned) {
   std::vector<std::uint32_t> imageOf(imageCount, kNotUsed);
   for (Material& m : pruned.materials)
-    for (TextureSlot* slot : readSlots(m)) {
-      if (!slot->used()) continue;
-      std::uint32_t& at = imageOf[static_cast<std::size_t>(slot->image)];
+    for (const auto slot : kTextureSlots) {
+      int& image = (m.*slot).image;
+      if (image < 0) continue;
+      std::uint32_t& at = imageOf[static_cast<std::size_t>(image)];
       if (at == kNotUsed) {
         at = static_cast<std::uint32_t>(pruned.images.size());
-        pruned.images.push_back(static_cast<std::uint32_t>(slot->image));
+        pruned.images.push_back(static_cast<std::uint32_t>(image));
       }
-      slot->image = static_cast<int>(at);
+      image = static_cast<int>(at);
     }
 }
 
@@ -153,7 +156,7 @@ void keepImages(std::size_t imageCount, PrunedScene& pruned) {
 LitBounds boundsForLights(const Scene& scene, const Flags& lit) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   const bool asked = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
-    return l.kind == LightKind::Spot || (l.kind == LightKind::Point && l.range < inf);
+    return typeOf(l.kind).hasCone || (typeOf(l.kind).isPlaced && l.range < inf);
   });
   if (asked) return litBounds(scene, lit);
   LitBounds bounds;
@@ -166,7 +169,7 @@ void keepLights(const Scene& scene, PrunedScene& pruned) {
   if (scene.lights.empty()) return;
   Flags lit(scene.materials.size());
   for (std::size_t i = 0; i < lit.size(); ++i)
-    lit[i] = pruned.materialOf[i] != kNotUsed && !pruned.materials[pruned.materialOf[i]].unlit;
+    lit[i] = pruned.materialOf[i] != kNotUsed && isLit(pruned.materials[pruned.materialOf[i]]);
   const LitBounds bounds = boundsForLights(scene, lit);
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const std::string reason = whyDark(scene.lights[i], bounds);

@@ -23,6 +23,7 @@
 
 #include "analysis/largest_biradiance.h"
 #include "kernels/shared/layout.h"
+#include "scene/material_predicates.h"
 
 namespace whittle {
 namespace {
@@ -70,23 +71,23 @@ bool isUsual(const Material& m, const glm::dvec3& color) {
 }
 
 /// vertexColor: the largest of the scene. biradiance: of all lights on this material.
-Surface surfaceOf(const Material& m, double mirrorRoughness, const glm::dvec3& vertexColor,
+Surface surfaceOf(const Material& m, float mirrorRoughness, const glm::dvec3& vertexColor,
                   const glm::dvec3& biradiance) {
   Surface s;
   s.color = glm::dvec3(m.baseColor) * vertexColor;
-  s.blends = m.alphaMode == AlphaMode::Blend;
-  s.own = m.unlit ? s.color : glm::dvec3(m.emission);
+  s.blends = blends(m);
+  s.own = isLit(m) ? glm::dvec3(m.emission) : s.color;
   if (!isUsual(m, s.color)) s.own = glm::dvec3(std::numeric_limits<double>::infinity());
-  if (m.unlit) return s;
+  if (!isLit(m)) return s;
   const bool textured = m.metallicRoughnessTexture.used();
   const Interval roughness = rangeOf(m.roughness, textured);
-  s.smooth = roughness.low < mirrorRoughness;
-  s.rough = !(roughness.high < mirrorRoughness);
+  s.smooth = canBeSmooth(m, mirrorRoughness) && mirrorRoughness > 0;
+  s.rough = canBeRough(m, mirrorRoughness);
   s.metallic = rangeOf(m.metallic, textured);
   s.transmission = rangeOf(m.transmission, m.transmissionTexture.used());
   s.specular = m.specular;
   s.volume = m.volume;
-  const double least = std::max(roughness.low, s.smooth ? mirrorRoughness : 0.0);
+  const double least = std::max(roughness.low, s.smooth ? static_cast<double>(mirrorRoughness) : 0.0);
   const double lobe = largestLobe(std::max(least * least, 1e-3));
   for (int c = 0; c < 3; ++c) {
     s.matte[c] = times(s.color[c] / std::numbers::pi, biradiance[c]);
@@ -124,7 +125,7 @@ double returned(const Surface& s, int c, double L) {
 }
 
 /// All materials that some triangle has.
-std::vector<Surface> surfacesOf(const Scene& scene, double mirrorRoughness) {
+std::vector<Surface> surfacesOf(const Scene& scene, float mirrorRoughness) {
   glm::dvec3 vertexColor(1), least(0);
   for (const glm::vec4& color : scene.colors) {
     vertexColor = glm::max(vertexColor, glm::dvec3(color));
@@ -153,7 +154,7 @@ glm::dvec3 largestBackground(const Background& background) {
 }  // namespace
 
 std::vector<glm::dvec3> radianceBounds(const Scene& scene, const Settings& settings, int hits) {
-  const std::vector<Surface> surfaces = surfacesOf(scene, static_cast<double>(settings.mirrorRoughness));
+  const std::vector<Surface> surfaces = surfacesOf(scene, settings.mirrorRoughness);
   const glm::dvec3 background = largestBackground(scene.background);
   std::vector<glm::dvec3> bounds{glm::dvec3(0)};
   for (int n = 1; n <= hits; ++n) {

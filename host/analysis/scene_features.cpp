@@ -2,12 +2,14 @@
 // left out.
 #include "analysis/scene_features.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "analysis/feature_needs.h"
-#include "analysis/material_use.h"
+#include "scene/material_predicates.h"
 
 namespace whittle {
 namespace {
@@ -33,40 +35,22 @@ class Needs {
   }
   bool anySlot(const std::function<bool(const TextureSlot&)>& wanted) const {
     return anyMaterial([&](const Material& m) {
-      const auto slots = readSlots(m);
-      return std::any_of(slots.begin(), slots.end(),
-                         [&](const TextureSlot* s) { return s->used() && wanted(*s); });
+      return std::any_of(kTextureSlots.begin(), kTextureSlots.end(),
+                         [&](auto slot) { return (m.*slot).used() && wanted(m.*slot); });
     });
   }
 
-  bool smooth(const Material& m) const {
-    return !m.unlit && (m.metallicRoughnessTexture.used() || m.roughness < settings.mirrorRoughness);
-  }
-  bool rough(const Material& m) const {
-    return !m.unlit && (m.metallicRoughnessTexture.used() ? m.roughness >= settings.mirrorRoughness
-                                                          : !(m.roughness < settings.mirrorRoughness));
-  }
-  static bool transmits(const Material& m) { return !m.unlit && m.transmission > 0.0F; }
-  static bool refracts(const Material& m) { return transmits(m) && m.volume; }
-  static bool blends(const Material& m) { return m.alphaMode == AlphaMode::Blend; }
-  bool reflects(const Material& m) const {
-    return smooth(m) && (m.metallic > 0.0F || (m.specular > 0.0F && m.ior != 1.0F));
-  }
-
   bool lit() const { return !pruned.lights.empty(); }
-  bool mirrors() const {
-    return anyMaterial([this](const Material& m) { return reflects(m); });
+  /// A question of material_predicates.h that depends on what counts as a mirror.
+  bool anyMaterial(bool (*asked)(const Material&, float)) const {
+    return anyMaterial([&](const Material& m) { return asked(m, settings.mirrorRoughness); });
   }
-  bool impulses() const {
-    return settings.bounces > 1 && (mirrors() || anyMaterial(transmits) || anyMaterial(blends));
-  }
+  bool impulses() const { return settings.bounces > 1 && anyMaterial(canSendImpulses); }
   bool shadows() const {
     return settings.shadows && lit() && anyLight([](const Light& l) { return l.castsShadows; });
   }
   bool twoImpulses() const {
-    return impulses() && settings.impulses == ImpulseMode::All && anyMaterial([this](const Material& m) {
-             return (transmits(m) && (reflects(m) || m.volume)) || (blends(m) && reflects(m));
-           });
+    return impulses() && settings.impulses == ImpulseMode::All && anyMaterial(canSendTwoImpulses);
   }
   bool tree() const {
     if (settings.search != Search::Auto) return settings.search == Search::Tree;
@@ -80,7 +64,7 @@ class Needs {
 struct Question {
   Feature feature;
   bool used;
-  const char* reason;
+  std::string reason;
   bool settingDecides = false;  ///< --keep-all-features leaves it as it is
 };
 
@@ -98,48 +82,44 @@ std::vector<Question> geometryQuestions(const Needs& n) {
        "no texture reads a second UV set"},
       {F::NEAREST_FILTER, n.anySlot([](const TextureSlot& s) { return s.filter == Filter::Nearest; }),
        "every texture is filtered"},
-      {F::BASE_COLOR_TEXTURE, n.anyMaterial([](const Material& m) { return m.baseColorTexture.used(); }),
-       "no base colour texture"},
-      {F::METALLIC_ROUGHNESS_TEXTURE,
-       n.anyMaterial([](const Material& m) { return m.metallicRoughnessTexture.used(); }),
-       "no metallic-roughness texture"},
-      {F::NORMAL_TEXTURE, n.anyMaterial([](const Material& m) { return m.normalTexture.used(); }),
-       "no normal map"},
-      {F::EMISSION_TEXTURE, n.anyMaterial([](const Material& m) { return m.emissionTexture.used(); }),
-       "no emission texture"},
-      {F::SPECULAR_TEXTURE, n.anyMaterial([](const Material& m) { return m.specularTexture.used(); }),
-       "no specular texture"},
-      {F::SPECULAR_COLOR_TEXTURE,
-       n.anyMaterial([](const Material& m) { return m.specularColorTexture.used(); }),
-       "no specular colour texture"},
-      {F::TRANSMISSION_TEXTURE, n.anyMaterial([](const Material& m) { return m.transmissionTexture.used(); }),
-       "no transmission texture"},
   };
+}
+
+/// A question for each texture slot.
+std::vector<Question> textureQuestions(const Needs& n) {
+  return {
+#define WHITTLE_QUESTION(slot, FEATURE, encoding, factor, OTHERS)                    \
+  {Feature::FEATURE, n.anyMaterial([](const Material& m) { return m.slot.used(); }), \
+   fmt::format("no {}", featureText(Feature::FEATURE))},
+      WHITTLE_TEXTURE_SLOTS(WHITTLE_QUESTION)
+#undef WHITTLE_QUESTION
+  };
+}
+
+/// A question for each light type.
+std::vector<Question> lightTypeQuestions(const Needs& n) {
+  std::vector<Question> questions;
+  for (const LightType& type : kLightTypes)
+    questions.push_back({featureOf(type.kind),
+                         n.anyLight([&](const Light& l) { return l.kind == type.kind; }),
+                         fmt::format("no {} light", type.word)});
+  return questions;
 }
 
 std::vector<Question> lightQuestions(const Needs& n) {
   using F = Feature;
-  const auto kind = [&](LightKind k) { return n.anyLight([k](const Light& l) { return l.kind == k; }); };
-  const bool filters = n.anyMaterial(Needs::transmits) || n.anyMaterial(Needs::blends);
   const glm::vec3 b = n.scene.background.radiance;
   return {
       {F::LIGHTS, n.lit(),
        n.scene.lights.empty() ? "the scene has no lights" : "no light of the scene reaches anything"},
       {F::SHADOWS, n.shadows(), n.settings.shadows ? "no light casts shadows" : "shadows are switched off",
        !n.settings.shadows},
-      {F::FILTERED_SHADOWS, n.shadows() && filters, "no surface that casts a shadow lets light through"},
-      {F::POINT_LIGHTS, kind(LightKind::Point), "no point light"},
-      {F::DIRECTIONAL_LIGHTS, kind(LightKind::Directional), "no directional light"},
-      {F::SPOT_LIGHTS, kind(LightKind::Spot), "no spot light"},
+      {F::FILTERED_SHADOWS, n.shadows() && n.anyMaterial(filters),
+       "no surface that casts a shadow lets light through"},
       {F::LIGHT_RANGE, n.anyLight([](const Light& l) { return std::isfinite(l.range); }),
        "no light has a range"},
-      {F::MICROFACET, n.lit() && n.anyMaterial([&](const Material& m) {
-         return n.rough(m) && (m.specular > 0.0F || m.metallic > 0.0F);
-       }),
-       "no rough surface shows a highlight"},
-      {F::EMISSION,
-       n.anyMaterial([](const Material& m) { return !m.unlit && m.emission != glm::vec3(0.0F); }),
-       "no material emits"},
+      {F::MICROFACET, n.lit() && n.anyMaterial(canShowHighlight), "no rough surface shows a highlight"},
+      {F::EMISSION, n.anyMaterial(emits), "no material emits"},
       {F::UNLIT, n.anyMaterial([](const Material& m) { return m.unlit; }), "no material is unlit"},
       {F::BACKGROUND, b.r > 0.0F || b.g > 0.0F || b.b > 0.0F, "the background is black"},
       {F::BACKGROUND_MAP, !n.scene.background.map.empty(), "the background is one colour"},
@@ -153,22 +133,16 @@ std::vector<Question> impulseQuestions(const Needs& n) {
                                                    : "no material is smooth, transmits or blends";
   return {
       {F::IMPULSES, some, none, n.settings.bounces <= 1},
-      {F::METAL, n.anyMaterial([](const Material& m) { return m.metallic > 0.0F; }),
-       "no material is metallic"},
-      {F::MIRROR, some && n.mirrors(), some ? "no smooth material reflects" : none},
-      {F::TRANSMISSION, n.anyMaterial(Needs::transmits), "no material transmits"},
-      {F::REFRACTION, some && n.anyMaterial(Needs::refracts), "no transmitting material bounds a volume"},
-      {F::ABSORPTION,
-       n.anyMaterial([](const Material& m) { return m.volume && m.sigma_a != glm::vec3(0.0F); }),
-       "no volume absorbs"},
-      {F::ALPHA_MASK, n.anyMaterial([](const Material& m) { return m.alphaMode == AlphaMode::Mask; }),
+      {F::METAL, n.anyMaterial(isMetallic), "no material is metallic"},
+      {F::MIRROR, some && n.anyMaterial(canReflect), some ? "no smooth material reflects" : none},
+      {F::TRANSMISSION, n.anyMaterial(transmits), "no material transmits"},
+      {F::REFRACTION, some && n.anyMaterial(refracts), "no transmitting material bounds a volume"},
+      {F::ABSORPTION, n.anyMaterial(absorbs), "no volume absorbs"},
+      {F::ALPHA_MASK, n.anyMaterial(isMasked),
        n.pruned.pruning.needlessMasks > 0 ? "masks cut nothing out" : "no material is masked"},
-      {F::ALPHA_BLEND, n.anyMaterial(Needs::blends),
+      {F::ALPHA_BLEND, n.anyMaterial(blends),
        n.pruned.pruning.needlessBlends > 0 ? "blended materials are opaque" : "no material is blended"},
-      {F::SPECULAR_EXTENSION, n.anyMaterial([](const Material& m) {
-         return m.specular != 1.0F || m.specularColor != glm::vec3(1.0F) || m.specularTexture.used() ||
-                m.specularColorTexture.used();
-       }),
+      {F::SPECULAR_EXTENSION, n.anyMaterial(changesSpecular),
        "no material changes its specular strength or colour"},
       {F::BOTH_BRANCHES, n.twoImpulses(),
        n.settings.impulses == ImpulseMode::One ? "one impulse is chosen at random"
@@ -200,40 +174,21 @@ std::vector<Question> cameraQuestions(const Needs& n) {
 
 }  // namespace
 
-const char* featureText(Feature feature) {
-  switch (feature) {
-#define WHITTLE_TEXT(name, bit, words) \
-  case Feature::name:                  \
-    return words;
-    WHITTLE_FEATURES(WHITTLE_TEXT)
-#undef WHITTLE_TEXT
-  }
-  return "";
-}
-
-const std::vector<Feature>& allFeatures() {
-#define WHITTLE_LISTED(name, bit, words) Feature::name,
-  static const std::vector<Feature> all{WHITTLE_FEATURES(WHITTLE_LISTED)};
-#undef WHITTLE_LISTED
-  return all;
-}
-
 SceneFeatures SceneFeatures::analyse(const Scene& scene, const PrunedScene& pruned, const Settings& settings,
                                      const DeviceTraits& traits) {
   const Needs needs(scene, pruned, settings, traits);
   std::vector<Question> questions;
-  for (auto part :
-       {geometryQuestions(needs), lightQuestions(needs), impulseQuestions(needs), cameraQuestions(needs)})
+  for (auto part : {geometryQuestions(needs), textureQuestions(needs), lightTypeQuestions(needs),
+                    lightQuestions(needs), impulseQuestions(needs), cameraQuestions(needs)})
     questions.insert(questions.end(), part.begin(), part.end());
 
-  const auto bitOf = [](const Question& q) { return std::uint64_t{1} << static_cast<int>(q.feature); };
   SceneFeatures features;
   for (const auto& q : questions)
-    if (q.used || (settings.keepAllFeatures && !q.settingDecides)) features.bits_ |= bitOf(q);
+    if (q.used || (settings.keepAllFeatures && !q.settingDecides)) features.bits_ |= bitOf(q.feature);
   const ForcedFeatures forced = forcedFeatures(settings, features.bits_);
   features.bits_ |= forced.bits;
   for (const auto& q : questions) {
-    const bool used = features.bits_ & bitOf(q);
+    const bool used = features.bits_ & bitOf(q.feature);
     const auto neededBy = forced.neededBy.find(q.feature);
     features.lines_.push_back({q.feature, featureText(q.feature), used, used ? "" : q.reason, used && !q.used,
                                neededBy == forced.neededBy.end() ? "" : featureText(neededBy->second)});

@@ -6,24 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "analysis/feature.h"
 #include "analysis/pruned_scene.h"
-#include "kernels/shared/features.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
 namespace whittle {
-
-/// The bit numbers of kernels/shared/features.h.
-enum class Feature : int {
-#define WHITTLE_ENUM(name, bit, text) name = bit,
-  WHITTLE_FEATURES(WHITTLE_ENUM)
-#undef WHITTLE_ENUM
-};
-
-/// What a person calls it.
-const char* featureText(Feature feature);
-/// In the order of their bits.
-const std::vector<Feature>& allFeatures();
 
 /// What only the device decides.
 struct DeviceTraits {

@@ -13,8 +13,6 @@
 namespace whittle {
 namespace {
 
-constexpr std::uint64_t bit(Feature feature) { return std::uint64_t{1} << static_cast<int>(feature); }
-
 /// What the searches see of a scene.
 Scene bareScene(const Scene& scene) {
   Scene bare;
@@ -35,9 +33,9 @@ void copyPlane(std::vector<float>& queue, std::uint32_t capacity, std::uint32_t 
 }  // namespace
 
 const std::vector<QueryKernel>& queryKernels() {
-  constexpr std::uint64_t common = bit(Feature::TREE) | bit(Feature::SHADOWS) | bit(Feature::LIGHTS);
+  constexpr std::uint64_t common = bitOf(Feature::TREE) | bitOf(Feature::SHADOWS) | bitOf(Feature::LIGHTS);
   static const std::vector<QueryKernel> kernels{
-      {"packet16", common | bit(Feature::PACKETS)},
+      {"packet16", common | bitOf(Feature::PACKETS)},
       {"single2", common},
   };
   return kernels;

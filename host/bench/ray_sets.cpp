@@ -87,7 +87,7 @@ Box withoutFlatSides(Box box) {
 
 glm::dvec3 lightPosition(const Scene& scene) {
   for (const Light& light : scene.lights)
-    if (light.kind != LightKind::Directional) return glm::dvec3(light.position);
+    if (typeOf(light.kind).isPlaced) return glm::dvec3(light.position);
   const Box box = boxOf(scene);
   const glm::dvec3 size = box.hi - box.lo;
   return 0.5 * (box.lo + box.hi) +

@@ -49,7 +49,7 @@ std::uint64_t parseName(const std::string& option, const std::string& word, cons
     throw InputError(
         fmt::format("{}: '{}' has an empty entry; names stand between single commas", option, list));
   for (const Feature f : allFeatures())
-    if (lowerCase(word) == lowerCase(featureText(f))) return std::uint64_t{1} << static_cast<int>(f);
+    if (lowerCase(word) == lowerCase(featureText(f))) return bitOf(f);
   throw InputError(fmt::format("{}: no feature is called '{}'; {}`whittle info SCENE` names them all", option,
                                word, didYouMean(word)));
 }

@@ -31,17 +31,15 @@ Json camerasJson(const Scene& scene) {
 Json lightsJson(const Scene& scene) {
   Json lights = Json::array();
   for (const auto& l : scene.lights) {
-    lights.push_back(
-        {{"name", l.name},
-         {"kind",
-          l.kind == LightKind::Point ? "point" : (l.kind == LightKind::Spot ? "spot" : "directional")},
-         {"castsShadows", l.castsShadows},
-         {"intensity", toJson(l.intensity)}});
+    const LightType& type = typeOf(l.kind);
+    lights.push_back({{"name", l.name},
+                      {"kind", type.word},
+                      {"castsShadows", l.castsShadows},
+                      {"intensity", toJson(l.intensity)}});
     Json& light = lights.back();
-    if (l.kind != LightKind::Directional)
-      light["position"] = toJson(l.position), light["range"] = finiteOrNull(l.range);
-    if (l.kind != LightKind::Point) light["direction"] = toJson(l.direction);
-    if (l.kind == LightKind::Spot) {
+    if (type.isPlaced) light["position"] = toJson(l.position), light["range"] = finiteOrNull(l.range);
+    if (type.isAimed) light["direction"] = toJson(l.direction);
+    if (type.hasCone) {
       light["innerConeAngle"] = jsonFloat(l.innerConeAngle);
       light["outerConeAngle"] = jsonFloat(l.outerConeAngle);
     }

@@ -43,13 +43,11 @@ std::string cameraText(const Camera& c) {
 }
 
 std::string lightText(const Light& l) {
-  const char* const kind =
-      l.kind == LightKind::Point ? "point" : (l.kind == LightKind::Spot ? "spot" : "directional");
-  std::string text = fmt::format("{}, {} {}", kind, vectorText(l.intensity),
-                                 l.kind == LightKind::Directional ? "W/m²" : "W/sr");
-  if (l.kind != LightKind::Directional) text += fmt::format(", at {} m", vectorText(l.position));
-  if (l.kind != LightKind::Point) text += fmt::format(", shining {}", vectorText(l.direction));
-  if (l.kind == LightKind::Spot)
+  const LightType& type = typeOf(l.kind);
+  std::string text = fmt::format("{}, {} {}", type.word, vectorText(l.intensity), type.unit);
+  if (type.isPlaced) text += fmt::format(", at {} m", vectorText(l.position));
+  if (type.isAimed) text += fmt::format(", shining {}", vectorText(l.direction));
+  if (type.hasCone)
     text += fmt::format(", half angle {:.1f}° to {:.1f}°", static_cast<double>(l.innerConeAngle) * kDegrees,
                         static_cast<double>(l.outerConeAngle) * kDegrees);
   if (std::isfinite(l.range)) text += fmt::format(", range {} m", formatReal(static_cast<double>(l.range)));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/input_error.h"
+#include "scene/settings.h"
 
 namespace whittle::cli {
 
@@ -56,23 +57,16 @@ CLI::Option* addReal(CLI::App& command, const std::string& name, T& value, doubl
                  {valueName, text, fallback});
 }
 
+/// One of the words that scene/settings.h has for T; the help shows them in their order.
 template <typename T>
-struct Choice {
-  const char* word;
-  T value;
-};
-
-/// One of a few words; the help shows them in this order.
-template <typename T>
-CLI::Option* addChoice(CLI::App& command, const std::string& name, T& value,
-                       const std::vector<Choice<T>>& choices, const std::string& text) {
+CLI::Option* addChoice(CLI::App& command, const std::string& name, T& value, const std::string& text) {
   std::string words, fallback;
-  for (const auto& c : choices) {
+  for (const auto& c : wordsOf(value)) {
     words += (words.empty() ? "" : "|") + std::string(c.word);
     if (c.value == value) fallback = c.word;
   }
-  const auto set = [&value, choices, words, name](const std::string& word) {
-    for (const auto& c : choices)
+  const auto set = [&value, words, name](const std::string& word) {
+    for (const auto& c : wordsOf(value))
       if (word == c.word) {
         value = c.value;
         return;

@@ -107,13 +107,9 @@ void addPictureOptions(CLI::App& c, Settings& s) {
   addWhole(c, "--rays-per-pixel", s.raysPerPixel, 1, 1 << 24, "N",
            "primary rays; 1 = through the pixel's centre");
   c.add_flag("--shadows,!--no-shadows", s.shadows, "trace shadow rays [on]");
-  addChoice<Sampler>(
-      c, "--sampler", s.sampler,
-      {{"random", Sampler::Random}, {"stratified", Sampler::Stratified}, {"sobol", Sampler::Sobol}},
-      "where in the pixel its rays start");
+  addChoice(c, "--sampler", s.sampler, "where in the pixel its rays start");
   addWhole(c, "--seed", s.seed, 0, std::numeric_limits<std::uint32_t>::max(), "N", "of every random number");
-  addChoice<ImpulseMode>(c, "--impulses", s.impulses, {{"all", ImpulseMode::All}, {"one", ImpulseMode::One}},
-                         "follow both branches of a surface, or one chosen at random");
+  addChoice(c, "--impulses", s.impulses, "follow both branches of a surface, or one chosen at random");
   addReal(c, "--ray-offset,--bump", s.rayOffset, 0, 1e30, "METRES",
           "distance of a ray's origin from its surface", "from the rounding error of each hit");
   addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R", "surfaces smoother than this are mirrors",
@@ -131,11 +127,8 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
            "rays in flight; raised to 512 and lowered to what the picture needs");
   addWhole(c, "--work-group", s.workGroup, 0, 65536, "N", "work items of a group",
            "0: chosen for the device");
-  addChoice<Search>(c, "--search", s.search,
-                    {{"auto", Search::Auto}, {"tree", Search::Tree}, {"array", Search::Array}},
-                    "how the nearest triangle is found");
-  addChoice<Lanes>(c, "--lanes", s.lanes, {{"auto", Lanes::Auto}, {"1", Lanes::One}, {"16", Lanes::Sixteen}},
-                   "rays that one work item searches for");
+  addChoice(c, "--search", s.search, "how the nearest triangle is found");
+  addChoice(c, "--lanes", s.lanes, "rays that one work item searches for");
   c.add_flag("--relaxed-arithmetic", s.relaxedArithmetic,
              "shade with -cl-fast-relaxed-math; watertight surfaces, exact textures and the count of samples "
              "that are not finite are not promised then [off]");

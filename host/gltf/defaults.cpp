@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gltf/loader.h"
+#include "scene/material_predicates.h"
 
 namespace whittle {
 
@@ -83,7 +84,7 @@ bool hasEmitters(const Scene& scene) {
   for (const Triangle& t : scene.triangles) used[t.material] = true;
   for (std::size_t i = 0; i < used.size(); ++i) {
     const Material& m = scene.materials[i];
-    if (used[i] && (m.unlit || m.emission != glm::vec3(0.0F))) return true;
+    if (used[i] && (!isLit(m) || emits(m))) return true;
   }
   return false;
 }
@@ -91,7 +92,7 @@ bool hasEmitters(const Scene& scene) {
 /// Some triangle would look different under a light.
 bool hasLitSurfaces(const Scene& scene) {
   return std::any_of(scene.triangles.begin(), scene.triangles.end(),
-                     [&](const Triangle& t) { return !scene.materials[t.material].unlit; });
+                     [&](const Triangle& t) { return isLit(scene.materials[t.material]); });
 }
 
 Light directional(const char* name, const glm::vec3& direction, const glm::vec3& irradiance,

@@ -66,9 +66,8 @@ void readCone(const Json& light, const std::string& label, Light& out, Notices& 
 }
 
 std::optional<LightKind> kindOf(const std::string& type) {
-  if (type == "point") return LightKind::Point;
-  if (type == "directional") return LightKind::Directional;
-  if (type == "spot") return LightKind::Spot;
+  for (const LightType& t : kLightTypes)
+    if (type == t.word) return t.kind;
   return std::nullopt;
 }
 
@@ -104,7 +103,7 @@ std::optional<Light> readLight(const Json& json, std::size_t index, Notices& not
     else
       notices.warn(fmt::format("{}: its range must be positive; it reaches everywhere", label));
   }
-  if (light.kind == LightKind::Spot) readCone(json, label, light, notices);
+  if (typeOf(light.kind).hasCone) readCone(json, label, light, notices);
   light.castsShadows = castsShadows(child(json, "extras"));
   return light;
 }
@@ -144,7 +143,7 @@ void readLights(const Document& document, const Hierarchy& hierarchy, Scene& sce
     if (!light) continue;
     const glm::dmat4& toWorld = hierarchy.toWorld[at(node)];
     const auto direction = unit(-glm::dvec3(toWorld[2]));
-    if (!isFinite(toWorld[3]) || (!direction && light->kind != LightKind::Point)) {
+    if (!isFinite(toWorld[3]) || (!direction && typeOf(light->kind).isAimed)) {
       notices.warn(fmt::format("the light at {} has a transform that cannot be used; it is left out",
                                nodeLabel(document, node)));
       continue;

@@ -188,12 +188,11 @@ class PrimitiveReader {
 
 Needs needsOf(const Material& material) {
   Needs needs;
-  for (const TextureSlot* slot :
-       {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-        &material.occlusionTexture, &material.emissionTexture, &material.specularTexture,
-        &material.specularColorTexture, &material.transmissionTexture}) {
-    if (slot->used()) needs.uv[slot->uvSet] = true;
-  }
+  const auto read = [&](const TextureSlot& slot) {
+    if (slot.used()) needs.uv[slot.uvSet] = true;
+  };
+  for (const auto slot : kTextureSlots) read(material.*slot);
+  read(material.occlusionTexture);
   needs.tangents = material.normalTexture.used();
   return needs;
 }

@@ -2,6 +2,7 @@
 // of the extensions that are read.
 #include "gltf/shapes.h"
 
+#include <algorithm>
 #include <array>
 
 namespace whittle::gltf {
@@ -140,8 +141,18 @@ constexpr std::array kRoot{required(object("asset", kAsset)),
                            objects("cameras", kCamera),
                            object("extensions", kRootExtensions)};
 
+bool hasExtension(std::span<const Field> fields, std::string_view name) {
+  return std::any_of(fields.begin(), fields.end(), [&](const Field& field) {
+    if (std::string_view(field.key) != "extensions") return hasExtension(field.fields, name);
+    return std::any_of(field.fields.begin(), field.fields.end(),
+                       [&](const Field& own) { return own.key == name || hasExtension(own.fields, name); });
+  });
+}
+
 }  // namespace
 
 std::span<const Field> rootFields() { return kRoot; }
+
+bool readsExtension(std::string_view name) { return hasExtension(kRoot, name); }
 
 }  // namespace whittle::gltf

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 
 namespace whittle::gltf {
 
@@ -20,5 +21,7 @@ struct Field {
 
 /// The members of the file's root object; everything else hangs on them.
 std::span<const Field> rootFields();
+/// Whether some object's "extensions" may hold this one.
+bool readsExtension(std::string_view name);
 
 }  // namespace whittle::gltf

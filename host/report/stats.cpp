@@ -4,29 +4,33 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
-#include "analysis/scene_features.h"
+#include "analysis/feature.h"
 #include "report/json_float.h"
 
 namespace whittle {
 
-const char* toString(Search search) {
-  return search == Search::Auto ? "auto" : (search == Search::Tree ? "tree" : "array");
-}
-const char* toString(Sampler sampler) {
-  return sampler == Sampler::Random ? "random" : (sampler == Sampler::Stratified ? "stratified" : "sobol");
-}
-const char* toString(ImpulseMode mode) { return mode == ImpulseMode::All ? "all" : "one"; }
-const char* toString(Lanes lanes) {
-  return lanes == Lanes::Auto ? "auto" : (lanes == Lanes::One ? "1" : "16");
-}
-
 namespace {
 
-std::vector<std::string> forcedFeatures(const Settings& s) {
-  std::vector<std::string> names;
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+Json settingToJson(const T& value) {
+  if constexpr (std::is_enum_v<T>) {
+    const auto& words = wordsOf(value);
+    return std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.value == value; })->word;
+  } else {
+    return value;
+  }
+}
+Json settingToJson(float value) { return jsonFloat(value); }
+Json settingToJson(const std::optional<float>& value) { return value ? Json(jsonFloat(*value)) : Json(); }
+/// Bits of features, by name.
+Json settingToJson(std::uint64_t features) {
+  Json names = Json::array();
   for (const Feature f : allFeatures())
-    if ((s.keepFeatures >> static_cast<int>(f)) & 1U) names.emplace_back(featureText(f));
+    if (features & bitOf(f)) names.push_back(featureText(f));
   return names;
 }
 
@@ -42,35 +46,9 @@ bool meetsTarget(const Settings& s, const ErrorPoint& point) {
 }
 
 nlohmann::ordered_json settingsToJson(const Settings& s) {
-  nlohmann::ordered_json rayOffset;
-  if (s.rayOffset) rayOffset = jsonFloat(*s.rayOffset);
-  return {{"width", s.width},
-          {"height", s.height},
-          {"camera", s.camera},
-          {"exposure", jsonFloat(s.exposure)},
-          {"bounces", s.bounces},
-          {"cutoff", jsonFloat(s.cutoff)},
-          {"raysPerPixel", s.raysPerPixel},
-          {"shadows", s.shadows},
-          {"search", toString(s.search)},
-          {"sampler", toString(s.sampler)},
-          {"seed", s.seed},
-          {"impulses", toString(s.impulses)},
-          {"device", s.device},
-          {"threads", s.threads},
-          {"lanes", toString(s.lanes)},
-          {"wavefront", s.wavefront},
-          {"workGroup", s.workGroup},
-          {"rayOffset", rayOffset},
-          {"bump", rayOffset},  // its name before 0.1.0
-          {"mirrorRoughness", jsonFloat(s.mirrorRoughness)},
-          {"relaxedArithmetic", s.relaxedArithmetic},
-          {"keepAllFeatures", s.keepAllFeatures},
-          {"keepFeatures", forcedFeatures(s)},
-          {"adaptive", s.adaptive},
-          {"targetError", s.targetError},
-          {"targetErrorRelative", s.targetErrorRelative},
-          {"timeLimit", s.timeLimit}};
+  nlohmann::ordered_json json;
+  eachSetting(s, [&](const char* name, const auto& value) { json[name] = settingToJson(value); });
+  return json;
 }
 
 namespace {

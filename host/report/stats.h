@@ -110,9 +110,4 @@ nlohmann::ordered_json stageFactsToJson(const StageFacts& facts);
 /// The statistics file.
 nlohmann::ordered_json statsToJson(const Stats& stats);
 
-const char* toString(Search search);
-const char* toString(Sampler sampler);
-const char* toString(ImpulseMode mode);
-const char* toString(Lanes lanes);
-
 }  // namespace whittle

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "kernels/shared/scene_tables.h"
+
 namespace whittle {
 
 /// An 8-bit image, row 0 at the top (glTF's v = 0). `texels` holds width·height·4 bytes RGBA, not
@@ -73,6 +75,13 @@ struct Material {
   bool doubleSided = false;
 };
 
+/// The texture slots that rendering reads, in the order of kernels/shared/scene_tables.h.
+inline constexpr std::array kTextureSlots{
+#define WHITTLE_SLOT(slot, FEATURE, encoding, factor, OTHERS) &Material::slot,
+    WHITTLE_TEXTURE_SLOTS(WHITTLE_SLOT)
+#undef WHITTLE_SLOT
+};
+
 /// Corners by index into Scene's vertex arrays, counter-clockwise seen from the front (already flipped for
 /// mirrored nodes).
 struct Triangle {
@@ -80,7 +89,31 @@ struct Triangle {
   std::uint32_t material = 0;  ///< index into Scene::materials, always valid
 };
 
-enum class LightKind : std::uint8_t { Point, Directional, Spot };
+/// Point, Directional, Spot: the light types of kernels/shared/scene_tables.h.
+enum class LightKind : std::uint8_t {
+#define WHITTLE_KIND(Kind, NAME, word, unit, isPlaced, isAimed, hasCone) Kind,
+  WHITTLE_LIGHT_TYPES(WHITTLE_KIND)
+#undef WHITTLE_KIND
+};
+
+struct LightType {
+  LightKind kind;
+  const char* word;  ///< in glTF and in reports
+  const char* unit;  ///< of its intensity
+  bool isPlaced;     ///< it has a position and a range, and falls off with the squared distance
+  bool isAimed;      ///< it has a direction
+  bool hasCone;
+};
+
+/// In the order of LightKind.
+inline constexpr std::array kLightTypes{
+#define WHITTLE_TYPE(Kind, NAME, word, unit, isPlaced, isAimed, hasCone) \
+  LightType{LightKind::Kind, word, unit, isPlaced, isAimed, hasCone},
+    WHITTLE_LIGHT_TYPES(WHITTLE_TYPE)
+#undef WHITTLE_TYPE
+};
+
+constexpr const LightType& typeOf(LightKind kind) { return kLightTypes[static_cast<std::size_t>(kind)]; }
 
 /// KHR_lights_punctual. `intensity` is colour · intensity: W/sr for point and spot, W/m² for directional
 /// (or the photometric cd and lux: the picture then is in nits).

@@ -2,6 +2,7 @@
 // show the same.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +13,24 @@ enum class Search : std::uint8_t { Auto, Tree, Array };
 enum class Sampler : std::uint8_t { Random, Stratified, Sobol };
 enum class ImpulseMode : std::uint8_t { All, One };
 enum class Lanes : std::uint8_t { Auto, One, Sixteen };
+
+/// What a value is called on the command line and in the statistics.
+template <typename T>
+struct Word {
+  const char* word;
+  T value;
+};
+inline constexpr std::array kSearchWords{Word{"auto", Search::Auto}, Word{"tree", Search::Tree},
+                                         Word{"array", Search::Array}};
+inline constexpr std::array kSamplerWords{
+    Word{"random", Sampler::Random}, Word{"stratified", Sampler::Stratified}, Word{"sobol", Sampler::Sobol}};
+inline constexpr std::array kImpulseWords{Word{"all", ImpulseMode::All}, Word{"one", ImpulseMode::One}};
+inline constexpr std::array kLanesWords{Word{"auto", Lanes::Auto}, Word{"1", Lanes::One},
+                                        Word{"16", Lanes::Sixteen}};
+constexpr const auto& wordsOf(Search) { return kSearchWords; }
+constexpr const auto& wordsOf(Sampler) { return kSamplerWords; }
+constexpr const auto& wordsOf(ImpulseMode) { return kImpulseWords; }
+constexpr const auto& wordsOf(Lanes) { return kLanesWords; }
 
 struct Settings {
   int width = 640;           ///< pixels
@@ -44,6 +63,40 @@ struct Settings {
   bool aovs = false;      ///< keep depth, normal, albedo and primitive of each pixel's first sample
   float exposure = 0.0F;  ///< stops, for .png/.jpg only
 };
+
+/// Calls visit("name", member) for every setting that the statistics carry, in their order. The option is
+/// called the same with hyphens: raysPerPixel is --rays-per-pixel. Statistics are written from this list, and
+/// the tests of the help and of the statistics ask for all of it.
+template <typename Visit>
+void eachSetting(const Settings& s, const Visit& visit) {
+  visit("width", s.width);
+  visit("height", s.height);
+  visit("camera", s.camera);
+  visit("exposure", s.exposure);
+  visit("bounces", s.bounces);
+  visit("cutoff", s.cutoff);
+  visit("raysPerPixel", s.raysPerPixel);
+  visit("shadows", s.shadows);
+  visit("search", s.search);
+  visit("sampler", s.sampler);
+  visit("seed", s.seed);
+  visit("impulses", s.impulses);
+  visit("device", s.device);
+  visit("threads", s.threads);
+  visit("lanes", s.lanes);
+  visit("wavefront", s.wavefront);
+  visit("workGroup", s.workGroup);
+  visit("rayOffset", s.rayOffset);
+  visit("bump", s.rayOffset);  // its name before 0.1.0
+  visit("mirrorRoughness", s.mirrorRoughness);
+  visit("relaxedArithmetic", s.relaxedArithmetic);
+  visit("keepAllFeatures", s.keepAllFeatures);
+  visit("keepFeatures", s.keepFeatures);
+  visit("adaptive", s.adaptive);
+  visit("targetError", s.targetError);
+  visit("targetErrorRelative", s.targetErrorRelative);
+  visit("timeLimit", s.timeLimit);
+}
 
 inline bool hasErrorTarget(const Settings& s) { return s.targetError > 0.0 || s.targetErrorRelative > 0.0; }
 

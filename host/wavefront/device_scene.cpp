@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "kernels/shared/layout.h"
+#include "scene/material_predicates.h"
 
 namespace whittle {
 namespace {
@@ -19,7 +20,6 @@ static_assert(sizeof(device::Node) == sizeof(TreeNode));
 static_assert(sizeof(device::DeviceTriangle) == 48);
 static_assert(sizeof(device::DeviceLight) == 64);
 static_assert(sizeof(device::DeviceTexture) == 52);
-static_assert(sizeof(device::DeviceMaterial) == 112);
 static_assert(sizeof(device::DeviceCamera) == 128);
 
 /// Texture slots and texels of the images they use, shared where two slots are the same or read the same
@@ -79,42 +79,29 @@ class TextureAtlas {
 
 static_assert(static_cast<int>(Wrap::Repeat) == WRAP_REPEAT && static_cast<int>(Wrap::Clamp) == WRAP_CLAMP &&
               static_cast<int>(Wrap::Mirror) == WRAP_MIRROR);
-static_assert(static_cast<int>(LightKind::Point) == LIGHT_POINT &&
-              static_cast<int>(LightKind::Directional) == LIGHT_DIRECTIONAL &&
-              static_cast<int>(LightKind::Spot) == LIGHT_SPOT);
 
 void copy3(float* out, const glm::vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
 device::DeviceMaterial toDevice(const Material& m, TextureAtlas& atlas) {
   device::DeviceMaterial d{};
-  for (int k = 0; k < 4; ++k) d.baseColor[k] = m.baseColor[k];
-  copy3(d.emission, m.emission);
-  copy3(d.sigma_a, m.volume ? m.sigma_a : glm::vec3(0.0F));
-  copy3(d.specularColor, m.specularColor);
-  d.metallic = m.metallic;
-  d.roughness = m.roughness;
-  d.specular = m.specular;
-  d.transmission = m.transmission;
-  d.ior = m.ior;
-  d.alphaCutoff = m.alphaCutoff;
-  d.normalScale = m.normalScale;
+#define WHITTLE_VECTOR(name, size) \
+  for (int k = 0; k < size; ++k) d.name[k] = m.name[k];
+#define WHITTLE_SCALAR(name) d.name = m.name;
+#define WHITTLE_INDEX(slot, FEATURE, encoding, factor, OTHERS) d.slot = atlas.add(m.slot);
+  WHITTLE_MATERIAL_FACTORS(WHITTLE_VECTOR, WHITTLE_SCALAR)
+  WHITTLE_TEXTURE_SLOTS(WHITTLE_INDEX)
+#undef WHITTLE_VECTOR
+#undef WHITTLE_SCALAR
+#undef WHITTLE_INDEX
+  if (!m.volume) copy3(d.sigma_a, glm::vec3(0.0F));
   d.flags = (m.unlit ? MATERIAL_UNLIT : 0U) | (m.volume ? MATERIAL_VOLUME : 0U) |
-            (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0U) |
-            (m.alphaMode == AlphaMode::Mask ? MATERIAL_MASK : 0U) |
-            (m.alphaMode == AlphaMode::Blend ? MATERIAL_BLEND : 0U);
-  d.baseColorTexture = atlas.add(m.baseColorTexture);
-  d.metallicRoughnessTexture = atlas.add(m.metallicRoughnessTexture);
-  d.normalTexture = atlas.add(m.normalTexture);
-  d.emissionTexture = atlas.add(m.emissionTexture);
-  d.specularTexture = atlas.add(m.specularTexture);
-  d.specularColorTexture = atlas.add(m.specularColorTexture);
-  d.transmissionTexture = atlas.add(m.transmissionTexture);
+            (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0U) | (isMasked(m) ? MATERIAL_MASK : 0U) |
+            (blends(m) ? MATERIAL_BLEND : 0U);
   return d;
 }
 
 std::uint32_t triangleFlags(const Material& m) {
-  const bool filters = m.alphaMode == AlphaMode::Blend || (!m.unlit && m.transmission > 0.0F);
-  return (m.alphaMode == AlphaMode::Mask ? TRIANGLE_MASKED : 0U) | (filters ? TRIANGLE_FILTERS : 0U);
+  return (isMasked(m) ? TRIANGLE_MASKED : 0U) | (filters(m) ? TRIANGLE_FILTERS : 0U);
 }
 
 /// False for corners on one line, by the differences that the kernels see; products of two floats are exact

@@ -6,10 +6,13 @@
 
 #ifndef __OPENCL_VERSION__
 #include <cstdint>
+
+#include <kernels/shared/scene_tables.h>
 namespace whittle::device {
 using uint = std::uint32_t;
 #define WHITTLE_STRUCT(Name) struct Name
 #else
+#include "shared/scene_tables.h"
 #define WHITTLE_STRUCT(Name) \
   typedef struct Name Name;  \
   struct Name
@@ -40,27 +43,24 @@ WHITTLE_STRUCT(DeviceTriangle) {
 #define MATERIAL_MASK 8u
 #define MATERIAL_BLEND 16u
 
+#define WHITTLE_VECTOR(name, size) float name[size];
+#define WHITTLE_SCALAR(name) float name;
+#define WHITTLE_INDEX(slot, FEATURE, encoding, factor, OTHERS) int slot;
 WHITTLE_STRUCT(DeviceMaterial) {
-  float baseColor[4];
-  float emission[3];  // W/(m² sr)
-  float metallic;
-  float sigma_a[3];  // 1/m
-  float roughness;
-  float specularColor[3];
-  float specular;
-  float transmission;
-  float ior;
-  float alphaCutoff;
-  float normalScale;
-  uint flags;  // MATERIAL_…
-  // Indices into the texture slots, -1: none.
-  int baseColorTexture;
-  int metallicRoughnessTexture;
-  int normalTexture;
-  int emissionTexture;
-  int specularTexture;
-  int specularColorTexture;
-  int transmissionTexture;
+  WHITTLE_MATERIAL_FACTORS(WHITTLE_VECTOR, WHITTLE_SCALAR)
+  uint flags;                           // MATERIAL_…
+  WHITTLE_TEXTURE_SLOTS(WHITTLE_INDEX)  // indices into the texture slots, -1: none
+};
+#undef WHITTLE_VECTOR
+#undef WHITTLE_SCALAR
+#undef WHITTLE_INDEX
+
+// How the colours of each slot are stored: baseColorTextureEncoding is SRGB, and so on.
+enum { LINEAR, SRGB };
+enum {
+#define WHITTLE_ENCODING(slot, FEATURE, encoding, factor, OTHERS) slot##Encoding = encoding,
+  WHITTLE_TEXTURE_SLOTS(WHITTLE_ENCODING)
+#undef WHITTLE_ENCODING
 };
 
 #define WRAP_REPEAT 0u
@@ -78,13 +78,16 @@ WHITTLE_STRUCT(DeviceTexture) {
   uint uvSet;
 };
 
-#define LIGHT_POINT 0u
-#define LIGHT_DIRECTIONAL 1u
-#define LIGHT_SPOT 2u
+// Light types: LIGHT_POINT, LIGHT_DIRECTIONAL, LIGHT_SPOT, …
+enum {
+#define WHITTLE_CODE(Kind, NAME, word, unit, isPlaced, isAimed, hasCone) LIGHT_##NAME,
+  WHITTLE_LIGHT_TYPES(WHITTLE_CODE)
+#undef WHITTLE_CODE
+};
 
 WHITTLE_STRUCT(DeviceLight) {
   float intensity[3];  // W/sr, or W/m² (directional)
-  uint kind;
+  uint kind;           // LIGHT_…
   float position[3];
   float range;         // metres, inf: none
   float direction[3];  // the way it shines

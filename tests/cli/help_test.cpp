@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 #include "report/text.h"
 #include "run_whittle.h"
+#include "scene/settings.h"
 
 namespace whittle::test {
 namespace {
@@ -38,36 +40,30 @@ INSTANTIATE_TEST_SUITE_P(Cli, Help,
                          testing::Values("", "render", "reference", "info", "devices", "compare", "bench"),
                          [](const auto& of) { return std::string(*of.param ? of.param : "whittle"); });
 
+/// --rays-per-pixel for raysPerPixel.
+std::string optionOf(const std::string& setting) {
+  std::string option = "--";
+  for (const char c : setting) {
+    if (std::isupper(static_cast<unsigned char>(c))) option += '-';
+    option += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return option;
+}
+
 TEST(HelpOfRender, ShowsEachOptionOnceWithItsDefault) {
   const std::string text = runWhittle({"render", "--help"}).out;
-  for (const char* option : {"--width",
-                             "--height",
-                             "--camera",
-                             "--exposure",
-                             "--bounces",
-                             "--cutoff",
-                             "--rays-per-pixel",
-                             "--shadows, --no-shadows",
-                             "--search",
-                             "--sampler",
-                             "--seed",
-                             "--impulses",
-                             "--device",
-                             "--threads",
-                             "--wavefront",
-                             "--work-group",
-                             "--ray-offset, --bump",
-                             "--keep-all-features",
-                             "--stats",
-                             "--profile",
-                             "--trace",
-                             "--reference",
-                             "--target-error",
-                             "--time-limit",
-                             "--aov",
-                             "--quiet",
-                             "-o, --output"})
-    EXPECT_EQ(countLinesStarting(text, std::string("  ") + option), 1) << option;
+  std::vector<std::string> options{"--stats", "--profile", "--trace",     "--reference",
+                                   "--aov",   "--quiet",   "-o, --output"};
+  // Two settings of scene/settings.h share another's option.
+  eachSetting(Settings{}, [&](const std::string& name, const auto&) {
+    if (name != "bump" && name != "targetErrorRelative") options.push_back(optionOf(name));
+  });
+  for (const auto& option : options)
+    EXPECT_EQ(countLinesStarting(text, "  " + option + " ") + countLinesStarting(text, "  " + option + ","),
+              1)
+        << option;
+  for (const char* names : {"--ray-offset, --bump", "--shadows, --no-shadows"})
+    EXPECT_EQ(countLinesStarting(text, std::string("  ") + names), 1) << names;
   // The defaults of scene/settings.h, as the contract's users read them.
   for (const char* fallback :
        {"width of the picture [640]", "height of the picture [360]", "[8]", "[random]", "[auto]", "[all]"})

@@ -7,7 +7,6 @@
 
 #include "analysis/feature_needs.h"
 #include "analysis/scene_features.h"
-#include "cl/kernel_source.h"
 #include "pictures.h"
 #include "programs/kernel_programs.h"
 #include "single_rays.h"
@@ -74,8 +73,6 @@ Scene plainScene() {
   scene.cameras = {camera};
   return scene;
 }
-
-std::uint64_t bitOf(Feature f) { return std::uint64_t{1} << static_cast<int>(f); }
 
 /// Features that the programs of these settings are told of: their text comes to where it asks for them.
 std::uint64_t compiledIn(const SceneFeatures& features) {
@@ -180,21 +177,6 @@ TEST(Features, EachAloneAndAllTogetherCompileWithoutAWarning) {
 #define WHITTLE_BUILD(name, bit, text) EXPECT_EQ(builds.log(std::uint64_t{1} << (bit)), "") << (text);
   WHITTLE_FEATURES(WHITTLE_BUILD)
 #undef WHITTLE_BUILD
-}
-
-TEST(Features, BothListsOfBitsSayTheSame) {
-  const std::string& text = embeddedKernelFiles().at("shared/features.h");
-  std::size_t bits = 0;
-  for (std::size_t at = text.find("#define BIT_"); at != std::string::npos;
-       at = text.find("#define BIT_", at + 1))
-    ++bits;
-#define WHITTLE_COUNT(name, bit, words) +1
-  EXPECT_EQ(bits, std::size_t{0 WHITTLE_FEATURES(WHITTLE_COUNT)});
-#undef WHITTLE_COUNT
-#define WHITTLE_COMPARE(name, bit, words) \
-  EXPECT_NE(text.find("#define BIT_" #name " " #bit "\n"), std::string::npos) << (words);
-  WHITTLE_FEATURES(WHITTLE_COMPARE)
-#undef WHITTLE_COMPARE
 }
 
 std::vector<std::filesystem::path> sharedGltfScenes() {

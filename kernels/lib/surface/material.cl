@@ -5,7 +5,7 @@ INLINE void metallicRoughnessAt(const SceneView* scene, const TrianglePoint* at,
   *metallic = MATERIAL(at, metallic);
   *roughness = MATERIAL(at, roughness);
 #if HAS(TEXTURES) && HAS(METALLIC_ROUGHNESS_TEXTURE)
-  const Rgba texel = textureAt(scene, at, MATERIAL_BITS(at, metallicRoughnessTexture), 0);
+  const Rgba texel = TEXTURE_AT(scene, at, metallicRoughnessTexture);
   *metallic *= texel.c[2];
   *roughness *= texel.c[1];
 #endif
@@ -16,7 +16,7 @@ INLINE void metallicRoughnessAt(const SceneView* scene, const TrianglePoint* at,
 INLINE Real transmissionAt(const SceneView* scene, const TrianglePoint* at) {
   Real transmission = MATERIAL(at, transmission);
 #if HAS(TEXTURES) && HAS(TRANSMISSION_TEXTURE)
-  const Rgba texel = textureAt(scene, at, MATERIAL_BITS(at, transmissionTexture), 0);
+  const Rgba texel = TEXTURE_AT(scene, at, transmissionTexture);
   transmission *= texel.c[0];
 #endif
   return transmission;

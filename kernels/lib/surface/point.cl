@@ -67,6 +67,8 @@ INLINE Rgba textureAt(const SceneView* scene, const TrianglePoint* at, Natural s
   if (!some(used)) return none;
   return chooseRgba(used, sampleTexture(scene, used ? slots : (Natural)(0), &at->uv, srgb), none);
 }
+/// The same by the slot's name, its colours stored as scene_tables.h says.
+#define TEXTURE_AT(scene, at, slot) textureAt(scene, at, MATERIAL_BITS(at, slot), slot##Encoding)
 #endif
 
 #if HAS(VERTEX_NORMALS) || HAS(VERTEX_COLORS) || HAS(TEXTURES)
@@ -112,7 +114,7 @@ INLINE Rgba baseColorAt(const SceneView* scene, const TrianglePoint* at) {
   Rgba color;
   for (uint n = 0; n < 4; ++n) color.c[n] = wordOf(&at->material, word + n);
 #if HAS(TEXTURES) && HAS(BASE_COLOR_TEXTURE)
-  const Rgba texel = textureAt(scene, at, MATERIAL_BITS(at, baseColorTexture), 1);
+  const Rgba texel = TEXTURE_AT(scene, at, baseColorTexture);
   for (uint n = 0; n < 4; ++n) color.c[n] *= texel.c[n];
 #endif
 #if HAS(VERTEX_COLORS)

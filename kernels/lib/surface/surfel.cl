@@ -80,7 +80,7 @@ INLINE Real3 mappedNormal(const SceneView* scene, const TrianglePoint* at, Real3
                             gather3(scene->tangents, at->corner[2] * 4u));
   const Real3 tangent = normalize3(sub3(along, scale3(dot3(n, along), n)));
   const Real3 bitangent = scale3(gather(scene->tangents + 3, at->corner[0] * 4u), cross3(n, tangent));
-  const Rgba texel = textureAt(scene, at, slots, 0);
+  const Rgba texel = textureAt(scene, at, slots, normalTextureEncoding);
   const Real scale = MATERIAL(at, normalScale);
   const Real x = (texel.c[0] * 2.0f - 1.0f) * scale, y = (texel.c[1] * 2.0f - 1.0f) * scale, z = texel.c[2] * 2.0f - 1.0f;
   const Real3 tilted = normalize3(add3(add3(scale3(x, tangent), scale3(y, bitangent)), scale3(z, n)));
@@ -98,11 +98,11 @@ INLINE void specularReflectance(const SceneView* scene, const TrianglePoint* at,
   Real strength = MATERIAL(at, specular);
   Real3 tint = MATERIAL3(at, specularColor);
 #if HAS(TEXTURES) && HAS(SPECULAR_TEXTURE)
-  const Rgba specular = textureAt(scene, at, MATERIAL_BITS(at, specularTexture), 0);
+  const Rgba specular = TEXTURE_AT(scene, at, specularTexture);
   strength *= specular.c[3];
 #endif
 #if HAS(TEXTURES) && HAS(SPECULAR_COLOR_TEXTURE)
-  const Rgba specularColor = textureAt(scene, at, MATERIAL_BITS(at, specularColorTexture), 1);
+  const Rgba specularColor = TEXTURE_AT(scene, at, specularColorTexture);
   tint = mul3(tint, real3(specularColor.c[0], specularColor.c[1], specularColor.c[2]));
 #endif
   const Real3 f0 = scale3(r0, tint), one = same3((float3)(1.0f));
@@ -129,7 +129,7 @@ INLINE void materialAt(const SceneView* scene, const TrianglePoint* at, Surfel* 
 #if HAS(EMISSION)
   Real3 emission = MATERIAL3(at, emission);
 #if HAS(TEXTURES) && HAS(EMISSION_TEXTURE)
-  const Rgba glow = textureAt(scene, at, MATERIAL_BITS(at, emissionTexture), 1);
+  const Rgba glow = TEXTURE_AT(scene, at, emissionTexture);
   emission = mul3(emission, real3(glow.c[0], glow.c[1], glow.c[2]));
 #endif
   s->emission = choose3(s->front | ((s->flags & MATERIAL_DOUBLE_SIDED) != 0), emission, s->emission);

@@ -1,0 +1,56 @@
+// What a surface can do, asked of its material's factors: features, the radiance bound, the upload and tests
+// all ask here. A texture may scale a factor down to 0, never up. The reference asks nothing: it decides at
+// each hit.
+#pragma once
+
+#include <algorithm>
+
+#include "scene/scene.h"
+
+namespace whittle {
+
+/// Answers to light; an unlit surface shows its base colour alone.
+inline bool isLit(const Material& m) { return !m.unlit; }
+inline bool emits(const Material& m) { return isLit(m) && m.emission != glm::vec3(0.0F); }
+inline bool isMetallic(const Material& m) { return m.metallic > 0.0F; }
+
+/// Somewhere smoother than `mirrorRoughness` (Settings): a mirror or clear glass there.
+inline bool canBeSmooth(const Material& m, float mirrorRoughness) {
+  return isLit(m) && (m.metallicRoughnessTexture.used() || std::max(m.roughness, 0.0F) < mirrorRoughness);
+}
+inline bool canBeRough(const Material& m, float mirrorRoughness) {
+  return isLit(m) && !(std::max(m.roughness, 0.0F) < mirrorRoughness);
+}
+/// Rough, and not Lambert's alone.
+inline bool canShowHighlight(const Material& m, float mirrorRoughness) {
+  return canBeRough(m, mirrorRoughness) && (m.specular > 0.0F || isMetallic(m));
+}
+/// Sends out a mirror impulse.
+inline bool canReflect(const Material& m, float mirrorRoughness) {
+  return canBeSmooth(m, mirrorRoughness) && (isMetallic(m) || (m.specular > 0.0F && m.ior != 1.0F));
+}
+
+inline bool transmits(const Material& m) { return isLit(m) && m.transmission > 0.0F; }
+/// Bends what it transmits.
+inline bool refracts(const Material& m) { return transmits(m) && m.volume; }
+inline bool absorbs(const Material& m) { return m.volume && m.sigma_a != glm::vec3(0.0F); }
+inline bool isMasked(const Material& m) { return m.alphaMode == AlphaMode::Mask; }
+inline bool blends(const Material& m) { return m.alphaMode == AlphaMode::Blend; }
+/// Lets a part of the light of a shadow ray through.
+inline bool filters(const Material& m) { return blends(m) || transmits(m); }
+
+inline bool canSendImpulses(const Material& m, float mirrorRoughness) {
+  return canReflect(m, mirrorRoughness) || filters(m);
+}
+inline bool canSendTwoImpulses(const Material& m, float mirrorRoughness) {
+  const bool reflects = canReflect(m, mirrorRoughness);
+  return (transmits(m) && (reflects || m.volume)) || (blends(m) && reflects);
+}
+
+/// KHR_materials_specular at work.
+inline bool changesSpecular(const Material& m) {
+  return m.specular != 1.0F || m.specularColor != glm::vec3(1.0F) || m.specularTexture.used() ||
+         m.specularColorTexture.used();
+}
+
+}  // namespace whittle

@@ -1,0 +1,41 @@
+// Lights and materials as host and kernels both know them, one row each: light types, texture slots, factors.
+// Who needs a list of them walks these tables; nobody writes a second one.
+#ifndef WHITTLE_SCENE_TABLES_H
+#define WHITTLE_SCENE_TABLES_H
+
+// X(Kind, NAME, word, unit, isPlaced, isAimed, hasCone): LightKind::Kind on the host, LIGHT_NAME in kernels,
+// the feature NAME_LIGHTS; what glTF and a person call it; the unit of its intensity; which fields of Light
+// it uses: position and range, direction, the two cone angles. A light with a place falls off with the
+// squared distance.
+#define WHITTLE_LIGHT_TYPES(X)                                \
+  X(Point, POINT, "point", "W/sr", 1, 0, 0)                   \
+  X(Directional, DIRECTIONAL, "directional", "W/m²", 0, 1, 0) \
+  X(Spot, SPOT, "spot", "W/sr", 1, 1, 1)
+
+// X(slot, FEATURE, encoding, factor, (OTHERS)): the member of Material, and of DeviceMaterial that holds its
+// index; the feature of reading it; how its colours are stored; what is multiplied by it, of a material m
+// (where that is 0 it is not read; 1: it always is); the features of which one must be there for it to show.
+#define WHITTLE_TEXTURE_SLOTS(X)                                                               \
+  X(baseColorTexture, BASE_COLOR_TEXTURE, SRGB, 1.0F, (LIGHTS, IMPULSES, UNLIT, ALPHA_MASK))   \
+  X(metallicRoughnessTexture, METALLIC_ROUGHNESS_TEXTURE, LINEAR, 1.0F, (LIGHTS, IMPULSES))    \
+  X(normalTexture, NORMAL_TEXTURE, LINEAR, 1.0F, (LIGHTS, IMPULSES))                           \
+  X(emissionTexture, EMISSION_TEXTURE, SRGB, m.emission, (EMISSION))                           \
+  X(specularTexture, SPECULAR_TEXTURE, LINEAR, m.specular, (SPECULAR_EXTENSION))               \
+  X(specularColorTexture, SPECULAR_COLOR_TEXTURE, SRGB, m.specularColor, (SPECULAR_EXTENSION)) \
+  X(transmissionTexture, TRANSMISSION_TEXTURE, LINEAR, m.transmission, (TRANSMISSION))
+
+// The numbers of a material, of the same name in Material and DeviceMaterial, in the order of the latter.
+#define WHITTLE_MATERIAL_FACTORS(VECTOR, SCALAR) \
+  VECTOR(baseColor, 4)                           \
+  VECTOR(emission, 3) /* W/(m² sr) */           \
+  SCALAR(metallic)                               \
+  VECTOR(sigma_a, 3) /* 1/m */                   \
+  SCALAR(roughness)                              \
+  VECTOR(specularColor, 3)                       \
+  SCALAR(specular)                               \
+  SCALAR(transmission)                           \
+  SCALAR(ior)                                    \
+  SCALAR(alphaCutoff)                            \
+  SCALAR(normalScale)
+
+#endif

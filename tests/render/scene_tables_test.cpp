@@ -1,0 +1,92 @@
+// Every row of kernels/shared/scene_tables.h at work: the kernels and the reference, which reads no table,
+// draw the same. A new row is tested here without a line more.
+#include "agreement.h"
+#include "analysis/scene_features.h"
+#include "pictures.h"
+#include "single_rays.h"
+
+namespace whittle::test {
+namespace {
+
+/// A floor seen aslant, with a sheet above a part of it.
+Scene floorAndSheet(const Material& floor) {
+  Scene scene;
+  addFloor(scene, floor, 0, true, 4);
+  addQuad(scene, addMaterial(scene, lambert(glm::vec3(0.5F))), {-1, 1, -1}, {0, 0, 1.5F}, {1.5F, 0, 0});
+  Camera camera;
+  camera.position = {0.3F, 3, 4};
+  aim(camera, {0, -0.6, -1});
+  scene.cameras = {camera};
+  return scene;
+}
+
+TEST(LightTypes, EachAgreesWithTheReference) {
+  for (const LightType& type : kLightTypes) {
+    SCOPED_TRACE(type.word);
+    Light light = pointLight({1, 3, 0.5F}, 20);
+    light.kind = type.kind;
+    light.direction = glm::normalize(glm::vec3(-0.3F, -1, -0.1F));
+    light.range = type.isPlaced ? 6 : light.range;
+    light.innerConeAngle = 0.3F;
+    light.outerConeAngle = 0.9F;
+    Scene scene = floorAndSheet(lambert({0.5F, 0.25F, 0.75F}));
+    scene.lights = {light};
+    const Agreement lit = compareWithReference(scene, smallSettings(1));
+    expectAgreement(lit, type.word, 4);
+    EXPECT_GT(lit.mean, 0);
+    EXPECT_TRUE(SceneFeatures::analyse(scene, smallSettings(1), {true}).has(featureOf(type.kind)));
+    EXPECT_EQ(&typeOf(type.kind), &type);
+  }
+}
+
+/// Everything at once, so that each texture shows in something.
+Material busyMaterial() {
+  Material m;
+  m.baseColor = {0.8F, 0.6F, 0.9F, 1};
+  m.metallic = 0.4F;
+  m.roughness = 0.6F;
+  m.emission = {0.2F, 0.1F, 0.3F};
+  m.specularColor = {0.9F, 0.6F, 0.4F};
+  m.transmission = 0.5F;
+  return m;
+}
+
+Scene texturedFloor(const Material& material) {
+  Scene scene = floorAndSheet(material);
+  scene.images.push_back(
+      {"", 2, 2, {250, 60, 130, 90, 40, 200, 80, 255, 90, 110, 240, 30, 160, 20, 60, 180}});
+  scene.uv0.assign(scene.positions.size(), glm::vec2(0));
+  scene.uv0[1] = {0, 1}, scene.uv0[2] = {1, 1}, scene.uv0[3] = {1, 0};
+  scene.normals.assign(scene.positions.size(), glm::vec3(0, 1, 0));
+  scene.tangents.assign(scene.positions.size(), glm::vec4(1, 0, 0, 1));
+  scene.lights = {pointLight({1, 3, 0.5F}, 20)};
+  scene.background.radiance = glm::vec3(0.3F);
+  return scene;
+}
+
+TEST(TextureSlots, EachIsReadAndAgreesWithTheReference) {
+  const Settings plain = smallSettings(2);
+  Settings settings = plain;
+  settings.aovs = true;  // as compareWithReference
+#define WHITTLE_KEEP(slot, FEATURE, encoding, factor, OTHERS) \
+  settings.keepFeatures |= bitOf(Feature::FEATURE);
+  WHITTLE_TEXTURE_SLOTS(WHITTLE_KEEP)  // one program for all of them: most of the time is its compilation
+#undef WHITTLE_KEEP
+  const RenderResult without = renderOnDevice(texturedFloor(busyMaterial()), settings);
+  const auto compare = [&](TextureSlot Material::*slot, Feature feature, const char* name) {
+    Material material = busyMaterial();
+    (material.*slot).image = 0;
+    const Scene scene = texturedFloor(material);
+    const Agreement with = compareWithReference(scene, settings);
+    expectAgreement(with, name, 4);
+    EXPECT_GT(differingPixels(with.kernel.radiance, without.radiance), 1000U) << name;
+    EXPECT_TRUE(SceneFeatures::analyse(scene, plain, {true}).has(feature)) << name;
+  };
+#define WHITTLE_COMPARE(slot, FEATURE, encoding, factor, OTHERS) \
+  compare(&Material::slot, Feature::FEATURE, #slot);
+  WHITTLE_TEXTURE_SLOTS(WHITTLE_COMPARE)
+#undef WHITTLE_COMPARE
+}
+
+}  // namespace
+}  // namespace whittle::test

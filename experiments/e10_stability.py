@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """E10: Which of the numerical cases come out right, and by how much?
 
-Runs the tests that record rows (tests/stability/record.h) and writes the page stability.md: for each check of a case
+Runs the tests that record rows (tests/support/record.h) and writes the page stability.md: for each check of a case
 its construction, what was expected and why, what came out, the error and its limit. Cases that take minutes run whole.
 
 usage: experiments/e10_stability.py [--build FOLDER] [--out FILE] [--quick]

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "kernels/shared/layout.h"
-#include "stability/record.h"
 #include "support/kernel_bench.h"
 #include "support/random_scenes.h"
+#include "support/record.h"
 
 namespace whittle {
 namespace {

@@ -8,10 +8,10 @@
 #include "analysis/feature_needs.h"
 #include "analysis/scene_features.h"
 #include "cl/kernel_source.h"
-#include "pictures.h"
 #include "programs/kernel_programs.h"
 #include "render/plan.h"
-#include "single_rays.h"
+#include "support/pictures.h"
+#include "support/single_rays.h"
 #include "support/test_device.h"
 
 namespace whittle::test {

@@ -1,7 +1,7 @@
 // Bytes that stages move, against counts made by hand from what the kernels read and write.
 #include "wavefront/queue_traffic.h"
 
-#include "pictures.h"
+#include "support/pictures.h"
 
 namespace whittle::test {
 namespace {

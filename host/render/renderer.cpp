@@ -87,8 +87,11 @@ class Session {
     say("opening the device");
     const auto opening = Clock::now();
     limitCpuThreads(settings_.threads);
-    compute_.emplace(selectDevice(listDevices(), settings_.device), memory_,
-                     hooks_.timeStages ? Compute::Launches::Timed : Compute::Launches::Untimed);
+    if (hooks_.device)
+      compute_ = &hooks_.device->compute;
+    else
+      compute_ = &own_.emplace(selectDevice(listDevices(), settings_.device), memory_,
+                               hooks_.timeStages ? Compute::Launches::Timed : Compute::Launches::Untimed);
     endPhase("open the device", opening);
     if (settings_.threads > 0)
       tbbLimit_.emplace(tbb::global_control::max_allowed_parallelism, settings_.threads);
@@ -168,8 +171,9 @@ class Session {
           return startCompilerProcess(hooks_.compiler, {compute_->device().index, features_.bits(), target,
                                                         hooks_.kernelFolder, stages});
         };
-      auto built =
-          compilePrograms(*compute_, kernelPrograms(features_, stages, hooks_.kernelFolder), target, beside);
+      const auto wanted = kernelPrograms(features_, stages, hooks_.kernelFolder);
+      auto built = hooks_.device ? compileOnce(*hooks_.device, wanted, target, beside)
+                                 : compilePrograms(*compute_, wanted, target, beside);
       stats_.time.compile = secondsSince(start);
       if (hooks_.trace) hooks_.trace->phase("compile kernels", start, Trace::Track::Compiler);
       return built;
@@ -313,7 +317,8 @@ class Session {
   int workGroup_ = 0;
   Stats stats_;
   std::optional<tbb::global_control> tbbLimit_;
-  std::optional<Compute> compute_;
+  std::optional<Compute> own_;
+  Compute* compute_ = nullptr;  ///< its own, or that of the hooks
   DeviceScene deviceScene_;
   std::vector<std::uint32_t> pixelOrderTable_;
   Buffer pixelOrder_, film_, aovs_, passOrder_, passBlocks_;

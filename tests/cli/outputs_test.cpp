@@ -83,7 +83,8 @@ TEST(Outputs, QuietPrintsNothing) {
 }
 
 TEST(Outputs, AwayFromATerminalThereIsNoProgressAndNoDriverNoise) {
-  const Outcome& run = everyOutput().run;
+  const Folder folder;
+  const Outcome run = runWhittle(smallRender({"-o", "a.png"}), {folder.path(), {}});
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.err, "");
   EXPECT_EQ(run.out.find('\r'), std::string::npos);

@@ -1,15 +1,16 @@
 // compact: dense queues from sparse candidates, order kept (reduce, then scan, then scatter: Blelloch 1990), without
-// barriers: a work item walks COMPACT_CHUNK entries serially, which a CPU likes best and a GPU can afford with a small COMPACT_CHUNK.
-// compact_count: shadow rays and impulses in each chunk, and what a cut-off kept from being impulses. scan_chunks:
-// exclusive sums of chunk totals. compact_shadow writes the shadow queue (indices of candidates), compact_impulse the next
-// ray queue.
+// barriers: a work item walks COMPACT_CHUNK entries serially, which a CPU likes best and a GPU can afford with a small
+// COMPACT_CHUNK. compact_count: shadow rays and impulses in each chunk, and what a cut-off kept from being impulses.
+// scan_chunks: exclusive sums of chunk totals. compact_shadow writes the shadow queue (indices of candidates),
+// compact_impulse the next ray queue.
 #include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
 
 #define CHUNKS(count) (((count) + COMPACT_CHUNK - 1) / COMPACT_CHUNK)
 
-__kernel void compact_count(const uint count, __global const EntryFlags* flags,
-                            __global uint* totals) {  // [2][chunks] shadow rays, impulses; with CUTOFF [3], units cut off
+__kernel void compact_count(
+    const uint count, __global const EntryFlags* flags,
+    __global uint* totals) {  // [2][chunks] shadow rays, impulses; with CUTOFF [3], units cut off
   const uint chunk = get_global_id(0);
   const uint begin = chunk * COMPACT_CHUNK;
   if (begin >= count) return;
@@ -29,8 +30,8 @@ __kernel void compact_count(const uint count, __global const EntryFlags* flags,
 #endif
 }
 
-/// Two work items, one for each kind: totals[kind][i] becomes the sum of those before it; sums[kind] the sum of all. With
-/// CUTOFF a third: sums[2] and sums[3], the low and high half of the units cut off.
+/// Two work items, one for each kind: totals[kind][i] becomes the sum of those before it; sums[kind] the sum of all.
+/// With CUTOFF a third: sums[2] and sums[3], the low and high half of the units cut off.
 __kernel void scan_chunks(const uint chunks, __global uint* totals, __global uint* sums) {
   const uint kind = get_global_id(0);
   if (!sums) return;  // compiled ahead of its first launch
@@ -55,8 +56,8 @@ __kernel void scan_chunks(const uint chunks, __global uint* totals, __global uin
 }
 
 __kernel void compact_shadow(const uint count, __global const EntryFlags* flags,
-                             __global const uint* offsets,   // [2][chunks] exclusive sums
-                             __global uint* shadowQueue) {   // [capacity]
+                             __global const uint* offsets,  // [2][chunks] exclusive sums
+                             __global uint* shadowQueue) {  // [capacity]
   const uint chunk = get_global_id(0);
   const uint begin = chunk * COMPACT_CHUNK;
   if (begin >= count) return;
@@ -87,7 +88,8 @@ __kernel void compact_impulse(const uint first, const uint count, const uint cap
 }
 
 /// Raises the counter if a sample has more than LONG_RUN entries in a queue.
-__kernel void find_long_runs(const uint count, const uint capacity, __global const float* rays, __global uint* counters) {
+__kernel void find_long_runs(const uint count, const uint capacity, __global const float* rays,
+                             __global uint* counters) {
   const uint i = get_global_id(0);
   if (i + LONG_RUN >= count) return;
   __global const float* slots = rays + (size_t)RAY_SLOT * capacity;

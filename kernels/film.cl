@@ -31,11 +31,12 @@ INLINE void storeActive(Real value, __global float* to, uint active) {
   for (uint k = 0; k < active; ++k) to[k] = own[k];
 }
 
-__kernel void film(const Batch batch, const uint capacity, const uint pixels, const uint planes,
-                   __global const uint* blocks,  // of the film, one for each FILM_BLOCK pixels of the pass; null: pixel by pixel
-                   __global const float* sampleRadiance,
-                   __global float* sums,  // [planes][pixels of the picture], in the pixel order: no scattered writes
-                   __global uint* counters) {
+__kernel void film(
+    const Batch batch, const uint capacity, const uint pixels, const uint planes,
+    __global const uint* blocks,  // of the film, one for each FILM_BLOCK pixels of the pass; null: pixel by pixel
+    __global const float* sampleRadiance,
+    __global float* sums,  // [planes][pixels of the picture], in the pixel order: no scattered writes
+    __global uint* counters) {
   const uint k = (uint)get_global_id(0) * LANES;
   if (k >= batch.pixels) return;
   const uint active = batch.pixels - k < LANES ? batch.pixels - k : LANES;
@@ -47,12 +48,14 @@ __kernel void film(const Batch batch, const uint capacity, const uint pixels, co
     sum[c] = compensation[c] = (Real)(0.0f);
     if (batch.firstSample == 0) continue;
     sum[c] = loadSlots(own + (size_t)(c < 3 ? FILM_SUM + c : FILM_SQUARES) * pixels, 0, 1, active);
-    compensation[c] = loadSlots(own + (size_t)(c < 3 ? FILM_COMPENSATION + c : FILM_SQUARES_COMPENSATION) * pixels, 0, 1, active);
+    compensation[c] = loadSlots(own + (size_t)(c < 3 ? FILM_COMPENSATION + c : FILM_SQUARES_COMPENSATION) * pixels, 0,
+                                1, active);
   }
   for (uint s = 0; s < batch.samples; ++s) {
     const uint slot = k * batch.samples + s;
     Real value[4];
-    for (int c = 0; c < 3; ++c) value[c] = loadSlots(sampleRadiance + (size_t)c * capacity, slot, batch.samples, active);
+    for (int c = 0; c < 3; ++c)
+      value[c] = loadSlots(sampleRadiance + (size_t)c * capacity, slot, batch.samples, active);
     const Mask finite = isfinite(value[0]) & isfinite(value[1]) & isfinite(value[2]);
     if (some(!finite)) {
       int lost[LANES];
@@ -74,6 +77,7 @@ __kernel void film(const Batch batch, const uint capacity, const uint pixels, co
   }
   for (int c = 0; c < 4; ++c) {
     storeActive(sum[c], own + (size_t)(c < 3 ? FILM_SUM + c : FILM_SQUARES) * pixels, active);
-    storeActive(compensation[c], own + (size_t)(c < 3 ? FILM_COMPENSATION + c : FILM_SQUARES_COMPENSATION) * pixels, active);
+    storeActive(compensation[c], own + (size_t)(c < 3 ? FILM_COMPENSATION + c : FILM_SQUARES_COMPENSATION) * pixels,
+                active);
   }
 }

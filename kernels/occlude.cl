@@ -19,8 +19,8 @@ INLINE float16 loadLanes(const ShadowLanes* s, __global const float* plane) {
   return vload16(0, part);
 }
 
-INLINE void addLight(const ShadowLanes* s, int16 blocked, const uint* stops, __global const float* shadows, uint capacity,
-                     __global float* entryRadiance) {
+INLINE void addLight(const ShadowLanes* s, int16 blocked, const uint* stops, __global const float* shadows,
+                     uint capacity, __global float* entryRadiance) {
 #if !HAS(FILTERED_SHADOWS)
   if (s->neighbours) {
     for (int c = 0; c < 3; ++c) {
@@ -46,9 +46,9 @@ INLINE void addLight(const ShadowLanes* s, int16 blocked, const uint* stops, __g
 #endif
 
 __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity,
-                      __global const uint* shadowQueue,   // [count] entries with a shadow ray, in order
-                      __global const float* shadows,      // [SHADOW_PLANES][capacity] candidates by entry
-                      __global float* entryRadiance) {    // [3][capacity]
+                      __global const uint* shadowQueue,  // [count] entries with a shadow ray, in order
+                      __global const float* shadows,     // [SHADOW_PLANES][capacity] candidates by entry
+                      __global float* entryRadiance) {   // [3][capacity]
   const SceneView scene = SCENE_VIEW;
 #if HAS(PACKETS)
   const uint i = (uint)get_global_id(0) * PACKET_RAYS;

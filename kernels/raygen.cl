@@ -70,9 +70,10 @@ INLINE Natural samplePixels(const DeviceCamera* camera, const Batch* batch, uint
   return LOAD(packed);
 }
 
-__kernel void raygen(const DeviceCamera camera, const Batch batch, const uint count, const uint capacity,
-                     __global const uint* pixelOrder,  // [pixels of the picture] y << 16 | x along a space-filling order
-                     __global float* rays) {           // [RAY_PLANES][capacity]; EYE_… without IMPULSES
+__kernel void raygen(
+    const DeviceCamera camera, const Batch batch, const uint count, const uint capacity,
+    __global const uint* pixelOrder,  // [pixels of the picture] y << 16 | x along a space-filling order
+    __global float* rays) {           // [RAY_PLANES][capacity]; EYE_… without IMPULSES
   const uint slot = (uint)get_global_id(0) * LANES;
   if (slot >= count) return;
   const DeviceCamera own = camera;
@@ -93,9 +94,12 @@ __kernel void raygen(const DeviceCamera camera, const Batch batch, const uint co
   if (camera.orthographic) start = own.position;
 #endif
   Real3 high, low;
-  high.x = onPlane(start[0], own.stepX[0], own.stepXLow[0], own.stepY[0], own.stepYLow[0], nx, nxLow, ny, nyLow, &low.x);
-  high.y = onPlane(start[1], own.stepX[1], own.stepXLow[1], own.stepY[1], own.stepYLow[1], nx, nxLow, ny, nyLow, &low.y);
-  high.z = onPlane(start[2], own.stepX[2], own.stepXLow[2], own.stepY[2], own.stepYLow[2], nx, nxLow, ny, nyLow, &low.z);
+  high.x = onPlane(start[0], own.stepX[0], own.stepXLow[0], own.stepY[0], own.stepYLow[0], nx, nxLow, ny, nyLow,
+                   &low.x);
+  high.y = onPlane(start[1], own.stepX[1], own.stepXLow[1], own.stepY[1], own.stepYLow[1], nx, nxLow, ny, nyLow,
+                   &low.y);
+  high.z = onPlane(start[2], own.stepX[2], own.stepXLow[2], own.stepY[2], own.stepYLow[2], nx, nxLow, ny, nyLow,
+                   &low.z);
   Real3 o = real3(own.position[0], own.position[1], own.position[2]);
   Real3 d;
 #if HAS(ORTHOGRAPHIC)

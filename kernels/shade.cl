@@ -1,7 +1,7 @@
 // shade: what happens at each hit, LANES of them for each work item. Reads rays and hits of a segment; writes the
-// entry's radiance (emission, background, light that needs no shadow ray), its shadow candidate for the first light, its
-// impulse candidates and their flags. What is written for an entry without its flag means nothing.
-// shade_light: the shadow candidate of a further light, one round for each light, so that memory does not grow with them.
+// entry's radiance (emission, background, light that needs no shadow ray), its shadow candidate for the first light,
+// its impulse candidates and their flags. What is written for an entry without its flag means nothing. shade_light: the
+// shadow candidate of a further light, one round for each light, so that memory does not grow with them.
 #include "lib/surface/background.cl"
 #include "lib/surface/bsdf.cl"
 #include "lib/surface/ray_offset.cl"
@@ -19,7 +19,8 @@ typedef struct {
 } Arrivals;
 
 /// Entry i and its neighbours of a segment that begins at `first` and has `count`.
-INLINE Arrivals loadArrivals(__global const float* rays, __global const float* hits, uint first, uint count, uint capacity, uint i) {
+INLINE Arrivals loadArrivals(__global const float* rays, __global const float* hits, uint first, uint count,
+                             uint capacity, uint i) {
   Arrivals a;
   a.triangle = AS_NATURAL(LOAD(hits + (size_t)HIT_TRIANGLE * capacity + i));
   a.hit = (LANE_NUMBERS < count - i) & (a.triangle != NO_HIT);
@@ -57,7 +58,8 @@ INLINE Real3 absorptionAlong(const Surfel* s, Real t) {
 #if HAS(ABSORPTION)
   const Mask inside = ((s->flags & MATERIAL_VOLUME) != 0) & !s->front;
   if (some(inside))
-    return choose3(inside, real3(absorbed(s->sigma_a.x, t), absorbed(s->sigma_a.y, t), absorbed(s->sigma_a.z, t)), none);
+    return choose3(inside, real3(absorbed(s->sigma_a.x, t), absorbed(s->sigma_a.y, t), absorbed(s->sigma_a.z, t)),
+                   none);
 #endif
   return none;
 }
@@ -86,8 +88,9 @@ INLINE Real3 backgroundAlong(const SceneView* scene, const RenderConstants* cons
 #if HAS(LIGHTS)
 /// Direct light from one light where `lit`: a shadow candidate, or added to `radiance` at once where nothing can be in
 /// the way. Returns ENTRY_SHADOW for a candidate, else 0.
-INLINE Natural directLight(const SceneView* scene, const RenderConstants* constants, const Surfel* s, Real3 w_o, Mask lit,
-                           uint lightIndex, Real3 attenuation, uint i, uint capacity, __global float* shadows, Real3* radiance) {
+INLINE Natural directLight(const SceneView* scene, const RenderConstants* constants, const Surfel* s, Real3 w_o,
+                           Mask lit, uint lightIndex, Real3 attenuation, uint i, uint capacity, __global float* shadows,
+                           Real3* radiance) {
 #if HAS(UNLIT)
   lit = lit & ((s->flags & MATERIAL_UNLIT) == 0);
 #endif
@@ -115,8 +118,8 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
 #endif
 
 #if HAS(CUTOFF)
-/// The largest channel of a throughput that is at most the cut-off, in the units of layout.h. Truncation loses less than
-/// one unit, the rounding of the division a fraction of another.
+/// The largest channel of a throughput that is at most the cut-off, in the units of layout.h. Truncation loses less
+/// than one unit, the rounding of the division a fraction of another.
 INLINE Natural cutOffUnits(Real3 throughput, float cutoff) {
   const Real share = clampUnit(largestOfThree(throughput.x, throughput.y, throughput.z) / cutoff);
   return AS_NATURAL(TO_WHOLE(share * (float)CUTOFF_UNITS)) + 2u;
@@ -126,8 +129,8 @@ INLINE Natural cutOffUnits(Real3 throughput, float cutoff) {
 #if HAS(IMPULSES)
 /// Stores impulse k of the entries from i, where it carries anything, in the k-th set of planes; returns its flags
 /// and what was cut off, to be added up.
-INLINE Natural storeImpulse(const RenderConstants* constants, const Surfel* s, const Impulse* impulse, Mask hit, Real3 throughput,
-                            uint k, uint i, uint capacity, __global float* impulses) {
+INLINE Natural storeImpulse(const RenderConstants* constants, const Surfel* s, const Impulse* impulse, Mask hit,
+                            Real3 throughput, uint k, uint i, uint capacity, __global float* impulses) {
   const Real3 carried = mul3(throughput, impulse->magnitude);
   Mask sent = hit & anyPositive(carried) & isFinite3(impulse->w_i);
   Natural cut = (Natural)(0);
@@ -178,12 +181,12 @@ INLINE Impulse existing(const Impulse* first, const Impulse* second) {
 #if HAS(AOVS) || HAS(ONE_IMPULSE)
 /// What the entries' samples are called.
 typedef struct {
-  uint place[LANES];   // in the pixel order's plane: y width + x
+  uint place[LANES];  // in the pixel order's plane: y width + x
   uint sample[LANES];
 } SampleNames;
 
-INLINE SampleNames sampleNames(const Batch* batch, uint width, __global const uint* pixelOrder, __global const float* rays, uint capacity,
-                               uint entry, uint active) {
+INLINE SampleNames sampleNames(const Batch* batch, uint width, __global const uint* pixelOrder,
+                               __global const float* rays, uint capacity, uint entry, uint active) {
   SampleNames names;
   for (uint k = 0; k < LANES; ++k) {
     const uint own = entry + (k < active ? k : active - 1);
@@ -210,8 +213,8 @@ INLINE Real randomNumber(const SampleNames* names, uint dimension, uint seed) {
 
 #if HAS(AOVS)
 /// Auxiliary outputs of the pixels whose first sample is among the entries.
-INLINE void storeAovs(const SceneView* scene, const SampleNames* names, const Arrivals* a, const Surfel* s, uint active, uint pixels,
-                      __global float* aovs) {
+INLINE void storeAovs(const SceneView* scene, const SampleNames* names, const Arrivals* a, const Surfel* s, uint active,
+                      uint pixels, __global float* aovs) {
   float own[AOV_PLANES][LANES];
   uint triangle[LANES];
   int hit[LANES];
@@ -230,9 +233,10 @@ INLINE void storeAovs(const SceneView* scene, const SampleNames* names, const Ar
 }
 #endif
 
-__kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch batch, const uint first, const uint count,
-                    const uint capacity, const uint bounce, const uint lastBounce, const uint width, const uint pixels,
-                    __global const uint* pixelOrder, __global const float* rays, __global const float* hits,
+__kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch batch, const uint first,
+                    const uint count, const uint capacity, const uint bounce, const uint lastBounce, const uint width,
+                    const uint pixels, __global const uint* pixelOrder, __global const float* rays,
+                    __global const float* hits,
                     __global float* entryRadiance,  // [3][capacity] of the segment's entries
                     __global float* shadows,        // [SHADOW_PLANES][capacity]
                     __global float* impulses,       // [IMPULSES_OF_HIT IMPULSE_PLANES][capacity]
@@ -263,7 +267,8 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
     shaded = choose3((s.flags & MATERIAL_UNLIT) != 0, mul3(scale3(s.alpha, s.baseColor), attenuation), shaded);
 #endif
 #if HAS(LIGHTS)
-    if (lights) found = found | directLight(&scene, &own, &s, w_o, a.hit, 0, attenuation, i, capacity, shadows, &shaded);
+    if (lights)
+      found = found | directLight(&scene, &own, &s, w_o, a.hit, 0, attenuation, i, capacity, shadows, &shaded);
 #endif
 #if HAS(IMPULSES)
     if (bounce < lastBounce) {

@@ -1,6 +1,6 @@
 """E10: Which of the numerical cases come out right, and by how much?
 
-Runs the tests that record rows (tests/stability/record.h) and writes the page stability.md: for each check of a case
+Runs the tests that record rows (tests/support/record.h) and writes the page stability.md: for each check of a case
 its construction, what was expected and why, what came out, the error and its limit. Cases that take minutes run whole,
 but with --quick: then test_stability alone, long cases as short as in the suite.
 

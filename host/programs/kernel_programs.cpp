@@ -110,4 +110,22 @@ std::vector<cl::Program> compilePrograms(Compute& compute, const std::vector<Ker
   return built;
 }
 
+std::vector<cl::Program> compileOnce(OpenDevice& device, const std::vector<KernelProgram>& programs,
+                                     const CompileTarget& target, const CompileBeside& beside) {
+  std::vector<std::string> keys, newKeys;
+  std::vector<KernelProgram> newPrograms;
+  for (const KernelProgram& p : programs) {
+    keys.push_back(fmt::format("{}\n{}\n{}\n{}", target.workGroup, buildOptions(p, target),
+                               fmt::join(p.kernels, " "), p.source));
+    if (device.programs.contains(keys.back())) continue;
+    newKeys.push_back(keys.back());
+    newPrograms.push_back(p);
+  }
+  const auto built = compilePrograms(device.compute, newPrograms, target, beside);
+  for (std::size_t i = 0; i < built.size(); ++i) device.programs.emplace(newKeys[i], built[i]);
+  std::vector<cl::Program> all;
+  for (const std::string& key : keys) all.push_back(device.programs.at(key));
+  return all;
+}
+
 }  // namespace whittle

@@ -29,18 +29,18 @@ struct Compiled {
   double seconds = 0.0;
 };
 
-Compiled compileKernels(Compute& compute, const Settings& settings, const Decisions& decisions,
+Compiled compileKernels(OpenDevice& device, const Settings& settings, const Decisions& decisions,
                         const RenderHooks& hooks, Clock::time_point start) {
   const auto stages = plannedStages({decisions.features, decisions.pruned.lights.size(), settings.bounces});
   const CompileTarget target{decisions.compactChunk, decisions.workGroup, settings.relaxedArithmetic};
   CompileBeside beside;
   if (!hooks.compiler.empty())
     beside = [&] {
-      return startCompilerProcess(hooks.compiler, {compute.device().index, decisions.features.bits(), target,
-                                                   hooks.kernelFolder, stages});
+      return startCompilerProcess(hooks.compiler, {device.compute.device().index, decisions.features.bits(),
+                                                   target, hooks.kernelFolder, stages});
     };
   const auto programs = kernelPrograms(decisions.features, stages, hooks.kernelFolder);
-  Compiled compiled{compilePrograms(compute, programs, target, beside), PhaseLog::secondsSince(start)};
+  Compiled compiled{compileOnce(device, programs, target, beside), PhaseLog::secondsSince(start)};
   if (hooks.trace) hooks.trace->phase("compile kernels", start, Trace::Track::Compiler);
   return compiled;
 }
@@ -114,10 +114,14 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
   findCamera(scene, settings.camera);  // an unknown one is said before a device is opened
 
   say(hooks, "opening the device");
-  Compute compute = log.time("open the device", [&] {
-    return openDevice(settings, Compute::Memory::Real,
-                      hooks.timeStages ? Compute::Launches::Timed : Compute::Launches::Untimed);
-  });
+  std::optional<OpenDevice> own;
+  const auto opening = Clock::now();
+  if (!hooks.device)
+    own = OpenDevice{openDevice(settings, Compute::Memory::Real,
+                                hooks.timeStages ? Compute::Launches::Timed : Compute::Launches::Untimed)};
+  OpenDevice& device = hooks.device ? *hooks.device : *own;
+  Compute& compute = device.compute;
+  log.end("open the device", opening);
   std::optional<tbb::global_control> threads;
   if (settings.threads > 0) threads.emplace(tbb::global_control::max_allowed_parallelism, settings.threads);
   const Decisions decisions =
@@ -126,7 +130,7 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
   say(hooks, "compiling kernels");
   const auto compiling = Clock::now();
   auto compiled = std::async(std::launch::async,
-                             [&] { return compileKernels(compute, settings, decisions, hooks, compiling); });
+                             [&] { return compileKernels(device, settings, decisions, hooks, compiling); });
   const auto allocating = Clock::now();
   const PictureBuffers picture = allocatePicture(compute, settings, decisions, Compute::Memory::Real);
   const double pictureSeconds = PhaseLog::secondsSince(allocating);

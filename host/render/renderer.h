@@ -16,6 +16,8 @@
 
 namespace whittle {
 
+struct OpenDevice;
+
 struct RenderProgress {
   double samplesDone = 0.0;   ///< a batch under way counts in part
   double samplesTotal = 0.0;  ///< as far as limits and targets let one guess
@@ -43,6 +45,9 @@ struct RenderHooks {
   /// False: the command queue keeps no times, so that Stats' stages have none.
   bool timeStages = true;
   Trace* trace = nullptr;  ///< records launches and phases, needs timeStages; null: nothing is kept
+  /// Opened before, with timeStages, in place of the device that the settings name; null: the render opens
+  /// its own.
+  OpenDevice* device = nullptr;
 };
 
 /// Renders. The same scene and settings on the same device give the same bits, whatever the threads,

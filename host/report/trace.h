@@ -25,7 +25,7 @@ class Trace {
     std::uint32_t batch = 0;   ///< of the render, from 0
     std::uint32_t bounce = 0;  ///< 1 = what the eye sees; 0: a stage outside the bounces
     std::uint64_t items = 0;
-    std::uint64_t bytes = 0;        ///< known at the launch (queue_traffic.h)
+    std::uint64_t bytes = 0;        ///< known at the launch (wavefront/stages.h)
     double enqueued = 0.0;          ///< seconds of the steady clock, right after it was given to the queue
     double start = 0.0, end = 0.0;  ///< seconds of the device's clock
   };

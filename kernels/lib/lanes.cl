@@ -49,7 +49,9 @@ INLINE Real gather(__global const float* p, Natural at) { return p[at]; }
 INLINE int some(Mask mask) { return mask != 0; }
 #endif
 
-INLINE Natural gatherWords(__global const uint* p, Natural at) { return AS_NATURAL(gather((__global const float*)p, at)); }
+INLINE Natural gatherWords(__global const uint* p, Natural at) {
+  return AS_NATURAL(gather((__global const float*)p, at));
+}
 
 /// A vector for each lane.
 typedef struct {

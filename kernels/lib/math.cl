@@ -15,23 +15,23 @@ INLINE float3 load3(__global const float* p) { return (float3)(p[0], p[1], p[2])
 // (lanes.cl). What they compute has one text, a macro, written out for each width; `width` is empty for a single value.
 
 /// a·b − c·d with the right sign and 1.5 ulp (Kahan; Jeannerod, Louvet, Muller 2013).
-#define DIFFERENCE_OF_PRODUCTS(Float, width)                                       \
-  INLINE Float differenceOfProducts##width(Float a, Float b, Float c, Float d) {   \
-    const Float cd = c * d;                                                        \
-    const Float difference = fma(a, b, -cd);                                       \
-    const Float error = fma(-c, d, cd);                                            \
-    return difference + error;                                                     \
+#define DIFFERENCE_OF_PRODUCTS(Float, width)                                     \
+  INLINE Float differenceOfProducts##width(Float a, Float b, Float c, Float d) { \
+    const Float cd = c * d;                                                      \
+    const Float difference = fma(a, b, -cd);                                     \
+    const Float error = fma(-c, d, cd);                                          \
+    return difference + error;                                                   \
   }
 DIFFERENCE_OF_PRODUCTS(float, )
 DIFFERENCE_OF_PRODUCTS(float8, 8)
 DIFFERENCE_OF_PRODUCTS(float16, 16)
 
 /// Of four, pairs first; selects, since fmax and fmin are slow on PoCL.
-#define FIRST_OF_FOUR(Float, name, before)                  \
-  INLINE Float name(Float a, Float b, Float c, Float d) {   \
-    const Float ab = a before b ? a : b;                    \
-    const Float cd = c before d ? c : d;                    \
-    return ab before cd ? ab : cd;                          \
+#define FIRST_OF_FOUR(Float, name, before)                \
+  INLINE Float name(Float a, Float b, Float c, Float d) { \
+    const Float ab = a before b ? a : b;                  \
+    const Float cd = c before d ? c : d;                  \
+    return ab before cd ? ab : cd;                        \
   }
 FIRST_OF_FOUR(float8, largest8, >)
 FIRST_OF_FOUR(float8, smallest8, <)

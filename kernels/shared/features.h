@@ -66,10 +66,10 @@
 #define COMPACT_CHUNK 1024  // entries that one work item of the compaction walks: many on a CPU, few on a GPU
 #endif
 
-#define LONG_RUN 256    // a sample with more entries than this in one queue is cut into slices of this length
-#define PACKET_RAYS 16  // rays of a packet, with PACKETS; one for each work item without
-#define ENTRY_LANES 8   // entries that a work item of the other stages handles, likewise
-#define BVH8_DEPTH 64   // nodes on a way through the eight-wide tree; a deeper one is refused
+#define LONG_RUN 256       // a sample with more entries than this in one queue is cut into slices of this length
+#define PACKET_RAYS 16     // rays of a packet, with PACKETS; one for each work item without
+#define ENTRY_LANES 8      // entries that a work item of the other stages handles, likewise
+#define BVH8_DEPTH 64      // nodes on a way through the eight-wide tree; a deeper one is refused
 #define MAX_TREE_DEPTH 60  // traversal stack; the builder keeps to it
 
 #endif

@@ -15,12 +15,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json infoOf(const std::vector<std::string>& args) {
+/// What info says as JSON; cases that ask for the same share one run.
+const Json& infoOf(const std::vector<std::string>& args) {
+  static std::map<std::vector<std::string>, Json> known;
+  if (const auto found = known.find(args); found != known.end()) return found->second;
   std::vector<std::string> all{"info", "--json"};
   all.insert(all.end(), args.begin(), args.end());
   const Outcome run = runWhittle(all);
   EXPECT_EQ(run.status, 0) << run.err;
-  return Json::parse(run.out);
+  return known[args] = Json::parse(run.out);
 }
 
 TEST(Info, TextHasItsSections) {
@@ -42,7 +45,7 @@ TEST(Info, TextFitsATerminal) {
 }
 
 TEST(Info, EveryFeatureIsUsedOrLeftOutForAReason) {
-  const Json info = infoOf({scene()});
+  const Json& info = infoOf({scene()});
   for (const char* key : {"file", "triangles", "vertices", "materials", "textures", "lights", "cameras",
                           "features", "stages", "buffers", "device", "warnings", "notes"})
     EXPECT_TRUE(info.contains(key)) << key;
@@ -55,7 +58,7 @@ TEST(Info, EveryFeatureIsUsedOrLeftOutForAReason) {
 
 TEST(Info, KeptFeaturesHaveASectionOfTheirOwn) {
   const std::vector<std::string> keep{"--keep-features", "Normal Map"};
-  const Json features = infoOf({scene(), keep[0], keep[1]})["features"];
+  const Json& features = infoOf({scene(), keep[0], keep[1]})["features"];
   EXPECT_EQ(features["kept"], Json({"textures", "first UV set", "normal map"}));
   EXPECT_EQ(infoOf({scene()})["features"]["kept"], Json::array());
   std::set<std::string> used;
@@ -84,7 +87,7 @@ TEST_P(Plan, IsWhatARenderDoes) {
   const Folder folder;
   std::vector<std::string> args{"--width", "24", "--height", "16"};
   args.insert(args.end(), GetParam().begin(), GetParam().end());
-  const Json info = infoOf(args);
+  const Json& info = infoOf(args);
   args.insert(args.begin(), "render");
   args.insert(args.end(), {"--stats", "s.json", "--quiet"});
   const Outcome run = runWhittle(args, {folder.path(), {}});

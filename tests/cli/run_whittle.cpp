@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +18,7 @@ namespace {
 
 [[noreturn]] void becomeProgram(const std::vector<std::string>& args, const RunOptions& options, int out,
                                 int err) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a case that hangs takes along what it runs
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);
   if (!options.folder.empty() && ::chdir(options.folder.c_str()) != 0) ::_exit(126);

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "kernels/shared/layout.h"
-#include "stability/record.h"
 #include "support/lane_bench.h"
 #include "support/random_scenes.h"
+#include "support/record.h"
 
 namespace whittle {
 namespace {

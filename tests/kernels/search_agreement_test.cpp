@@ -2,7 +2,7 @@
 // scenes, the triangle that exact arithmetic finds, and any-hit answers that agree with the nearest hit.
 #include <gtest/gtest.h>
 
-#include "stability/record.h"
+#include "support/record.h"
 #include "support/search_bench.h"
 
 namespace whittle {

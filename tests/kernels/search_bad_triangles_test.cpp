@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf/builder.h"
-#include "stability/record.h"
+#include "support/record.h"
 #include "support/search_bench.h"
 
 namespace whittle {

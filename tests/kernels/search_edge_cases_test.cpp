@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "stability/record.h"
+#include "support/record.h"
 #include "support/search_bench.h"
 
 namespace whittle {

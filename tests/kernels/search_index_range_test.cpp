@@ -5,7 +5,7 @@
 // that has its own memory would, and a sanitizer shadows all of it: there the test is left out.
 #include <gtest/gtest.h>
 
-#include "stability/record.h"
+#include "support/record.h"
 #include "support/search_bench.h"
 
 namespace whittle {

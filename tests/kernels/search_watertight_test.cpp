@@ -2,7 +2,7 @@
 // corners and along the axes. In every form of the search; they give the same bits.
 #include <gtest/gtest.h>
 
-#include "stability/record.h"
+#include "support/record.h"
 #include "support/search_bench.h"
 
 namespace whittle {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/probe.h"
 #include "scene/input_error.h"
+#include "support/probe.h"
 
 namespace whittle::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "reference/fresnel.h"
-#include "reference/probe.h"
+#include "support/probe.h"
 
 namespace whittle::test {
 namespace {

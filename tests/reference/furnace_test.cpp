@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/probe.h"
+#include "support/probe.h"
 #include "support/random_scenes.h"
 
 namespace whittle::test {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/probe.h"
+#include "support/probe.h"
 
 namespace whittle::test {
 namespace {

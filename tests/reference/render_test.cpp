@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/probe.h"
 #include "reference/sampler.h"
+#include "support/probe.h"
 
 namespace whittle::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "pictures.h"
+#include "support/pictures.h"
 #include "wavefront/sample_counts.h"
 
 namespace whittle::test {

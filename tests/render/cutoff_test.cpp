@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "agreement.h"
 #include "kernels/shared/layout.h"
 #include "scene/input_error.h"
-#include "single_rays.h"
+#include "support/agreement.h"
+#include "support/single_rays.h"
 
 namespace whittle::test {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstdlib>
 
 #include "image/image_io.h"
-#include "pictures.h"
-#include "stability/record.h"
+#include "support/pictures.h"
+#include "support/record.h"
 
 namespace whittle::test {
 namespace {

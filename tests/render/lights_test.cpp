@@ -3,8 +3,8 @@
 #include <limits>
 #include <numbers>
 
-#include "single_rays.h"
-#include "stability/record.h"
+#include "support/record.h"
+#include "support/single_rays.h"
 
 namespace whittle::test {
 namespace {

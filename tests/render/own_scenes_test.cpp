@@ -1,6 +1,6 @@
 // The kernels against the reference on every scene of the project.
-#include "agreement.h"
-#include "pictures.h"
+#include "support/agreement.h"
+#include "support/pictures.h"
 
 namespace whittle::test {
 namespace {

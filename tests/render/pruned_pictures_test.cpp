@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "single_rays.h"
+#include "support/single_rays.h"
 
 namespace whittle::test {
 namespace {

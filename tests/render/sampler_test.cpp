@@ -1,8 +1,8 @@
 // Several samples for each pixel: the kernels' samplers and random choices against the reference's.
 #include <cmath>
 
-#include "agreement.h"
-#include "pictures.h"
+#include "support/agreement.h"
+#include "support/pictures.h"
 
 namespace whittle::test {
 namespace {

@@ -2,8 +2,8 @@
 // draw the same. A new row is tested here without a line more.
 #include "agreement.h"
 #include "analysis/scene_features.h"
-#include "pictures.h"
-#include "single_rays.h"
+#include "support/pictures.h"
+#include "support/single_rays.h"
 
 namespace whittle::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "reference/camera.h"
 #include "scene/input_error.h"
-#include "single_rays.h"
+#include "support/single_rays.h"
 #include "wavefront/camera_to_device.h"
 
 namespace whittle::test {

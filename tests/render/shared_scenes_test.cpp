@@ -1,6 +1,6 @@
 // The kernels against the reference on scenes that others made: each with another part of glTF.
-#include "agreement.h"
-#include "pictures.h"
+#include "support/agreement.h"
+#include "support/pictures.h"
 
 namespace whittle::test {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "analysis/scene_features.h"
 #include "reference/reference.h"
-#include "render/single_rays.h"
-#include "stability/record.h"
+#include "support/record.h"
 #include "support/search_bench.h"
+#include "support/single_rays.h"
 
 namespace whittle::test {
 

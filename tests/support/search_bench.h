@@ -72,11 +72,12 @@ class SearchBench {
     const auto features = SceneFeatures::analyse(scene, settings, {true});
     program = lab.programs[features.bits()];
     if (!program())
-      program = lab.programs[features.bits()] = compute_.build(assembleKernelSource({"lib/search/one_lane.cl", "lib/surface/ray_offset.cl",
-                                                     "intersect.cl", "occlude.cl"},
-                                                    testKernelFolder()) +
-                                   "#line 1 \"test kernels\"\n" + testKernels,
-                               buildOptions(features.bits(), 1024));
+      program = lab.programs[features.bits()] = compute_.build(
+          assembleKernelSource(
+              {"lib/search/one_lane.cl", "lib/surface/ray_offset.cl", "intersect.cl", "occlude.cl"},
+              testKernelFolder()) +
+              "#line 1 \"test kernels\"\n" + testKernels,
+          buildOptions(features.bits(), 1024));
     stages.emplace(compute_, std::vector{program}, kWorkGroup, LaunchWidths{features.has(Feature::PACKETS)});
     std::vector<glm::uvec3> corners;
     for (const Triangle& t : scene.triangles) corners.emplace_back(t.v0, t.v1, t.v2);

@@ -1,6 +1,6 @@
-// The bound of the rounding error of each coordinate, gamma(7) of its extent, along the geometric normal; then the next
-// float away from the surface (pbrt-v4: Pharr, Jakob, Humphreys 2023, 6.8.5 and 6.8.6). pbrt's triangles also refuse
-// hits within the error bound of their distance (6.8.7); ours do not.
+// The bound of the rounding error of each coordinate, gamma(7) of its extent, along the geometric normal;
+// then the next float away from the surface (pbrt-v4: Pharr, Jakob, Humphreys 2023, 6.8.5 and 6.8.6). pbrt's
+// triangles also refuse hits within the error bound of their distance (6.8.7); ours do not.
 #include "lib/surface/surfel.cl"
 
 INLINE Real rayOffsetAt(const RenderConstants* constants, const Surfel* s) {

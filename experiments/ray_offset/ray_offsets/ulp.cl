@@ -1,5 +1,5 @@
-// 256 units in the last place of each coordinate times the normal's component, and 1/65536 m of the normal where a
-// coordinate is below 1/32 m (Wächter and Binder 2019, Ray Tracing Gems, chapter 6).
+// 256 units in the last place of each coordinate times the normal's component, and 1/65536 m of the normal
+// where a coordinate is below 1/32 m (Wächter and Binder 2019, Ray Tracing Gems, chapter 6).
 #include "lib/surface/surfel.cl"
 
 /// What shadow rays are shortened by: the most that the offset is, 256 ulp of the largest coordinate.

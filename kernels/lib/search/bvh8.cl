@@ -3,7 +3,7 @@
 
 #if HAS(TREE) && HAS(PACKETS)
 
-#define BVH8_NODE_FLOATS 64   // lo[3][8], hi[3][8], child[8], pad
+#define BVH8_NODE_FLOATS 64  // lo[3][8], hi[3][8], child[8], pad
 
 /// Up to eight triangles: first, first + 1, … in leaf order.
 typedef struct {

@@ -75,8 +75,8 @@ float16 clampToBox16(const Packet* p, __global const float* triangle, uint strid
 
 /// intersectTriangle for sixteen rays: lanes whose largest axis is kz and that meet a triangle at 0 < t <= tMax. Its
 /// coordinates: corner k, axis a at triangle[(3 k + a) stride].
-INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint stride, int kz, float16 tMax, float16* t,
-                           float16* areaV, float16* areaW, float16* area) {
+INLINE int16 intersectAxis(const Packet* p, __global const float* triangle, uint stride, int kz, float16 tMax,
+                           float16* t, float16* areaV, float16* areaW, float16* area) {
   const uint kx = kz == 2 ? 0 : kz + 1;
   const uint ky = kx == 2 ? 0 : kx + 1;
   const float16 ox = p->o[kx], oy = p->o[ky], oz = p->o[kz];
@@ -147,8 +147,8 @@ int16 passAlphaMask(const SceneView* scene, uint index, int16 met, float16 b1, f
 #endif
 
 /// 1 if a lane found something nearer.
-INLINE int testNearestPacket(const SceneView* scene, const Packet* p, __global const float* triangle, uint stride, uint index,
-                             PacketHit* best) {
+INLINE int testNearestPacket(const SceneView* scene, const Packet* p, __global const float* triangle, uint stride,
+                             uint index, PacketHit* best) {
   float16 t = (float16)(0.0f), v = t, w = t, det = t;
   int16 met = intersectPacket(p, triangle, stride, best->t, &t, &v, &w, &det);
   if (!anyOf16(met)) return 0;
@@ -192,8 +192,8 @@ int16 filterOcclusion(const SceneView* scene, const Packet* p, uint index, int16
 
 /// Shadow lanes against one triangle: tMax becomes -inf where the light is now blocked. stops: [3][16], see
 /// testOcclusion. 1 if a lane met it.
-INLINE int testOcclusionPacket(const SceneView* scene, const Packet* p, __global const float* triangle, uint stride, uint index,
-                               float16* tMax, uint* stops) {
+INLINE int testOcclusionPacket(const SceneView* scene, const Packet* p, __global const float* triangle, uint stride,
+                               uint index, float16* tMax, uint* stops) {
   float16 t = (float16)(0.0f), v = t, w = t, det = t;
   int16 met = intersectPacket(p, triangle, stride, *tMax, &t, &v, &w, &det);
   met &= t < *tMax;

@@ -16,7 +16,7 @@
 
 typedef struct {
   float t;
-  uint triangle;   // NO_HIT: nothing met
+  uint triangle;  // NO_HIT: nothing met
   uint primitive;
   float b1, b2;
 } Hit;

@@ -242,11 +242,13 @@ void nearestApart(const SceneView* scene, RayTable* rays) {
     }
   }
   if (hasA) {
-    while (step(scene, &a));
+    while (step(scene, &a))
+      ;
     endWalk(&a, rays);
   }
   if (hasB) {
-    while (step(scene, &b));
+    while (step(scene, &b))
+      ;
     endWalk(&b, rays);
   }
 }

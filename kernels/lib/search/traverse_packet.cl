@@ -14,8 +14,7 @@
 
 void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
   best->t = wakeFinite(p, best->t);
-  for (uint i = 0; i < scene->triangleCount; ++i)
-    testNearestPacket(scene, p, &scene->triangles[i].v[0][0], 1, i, best);
+  for (uint i = 0; i < scene->triangleCount; ++i) testNearestPacket(scene, p, &scene->triangles[i].v[0][0], 1, i, best);
 }
 
 void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint* stops) {

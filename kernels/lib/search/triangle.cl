@@ -52,13 +52,13 @@ INLINE void extent(float a, float b, float c, float* lo, float* hi) {
 
 /// From corners (x, y) sheared onto the ray: areas u, v, w across from each corner, and whether the ray passes inside,
 /// all of them of one sign.
-#define EDGE_TEST(Float, Mask, width)                                                                            \
-  INLINE Mask edgeTest##width(Float ax, Float ay, Float bx, Float by, Float cx, Float cy, Float* u, Float* v,    \
-                              Float* w) {                                                                        \
-    *u = differenceOfProducts##width(cx, by, cy, bx);                                                            \
-    *v = differenceOfProducts##width(ax, cy, ay, cx);                                                            \
-    *w = differenceOfProducts##width(bx, ay, by, ax);                                                            \
-    return ((*u >= 0.0f) & (*v >= 0.0f) & (*w >= 0.0f)) | ((*u <= 0.0f) & (*v <= 0.0f) & (*w <= 0.0f));          \
+#define EDGE_TEST(Float, Mask, width)                                                                         \
+  INLINE Mask edgeTest##width(Float ax, Float ay, Float bx, Float by, Float cx, Float cy, Float* u, Float* v, \
+                              Float* w) {                                                                     \
+    *u = differenceOfProducts##width(cx, by, cy, bx);                                                         \
+    *v = differenceOfProducts##width(ax, cy, ay, cx);                                                         \
+    *w = differenceOfProducts##width(bx, ay, by, ax);                                                         \
+    return ((*u >= 0.0f) & (*v >= 0.0f) & (*w >= 0.0f)) | ((*u <= 0.0f) & (*v <= 0.0f) & (*w <= 0.0f));       \
   }
 EDGE_TEST(float, int, )
 EDGE_TEST(float8, int8, 8)
@@ -66,16 +66,16 @@ EDGE_TEST(float16, int16, 16)
 
 /// Distance of the hit; det: the sum of its areas, z: the corners' distances along the ray's largest axis, sz: one over
 /// the direction there. far: where t is still to be clamped to the triangle's box.
-#define HIT_DISTANCE(Float, Mask, width)                                                                         \
-  INLINE Float hitDistance##width(Float u, Float v, Float w, Float det, Float sz, Float az, Float bz, Float cz,  \
-                                  Mask* far) {                                                                   \
-    /* Weights first: area times distance would overflow from coordinates of 1e13 m on. */                       \
-    const Float weight = sz / det;                                                                               \
-    const Float t = fma(u * weight, az, fma(v * weight, bz, w * weight * cz));                                   \
-    const Float ab = fabs(az) > fabs(bz) ? fabs(az) : fabs(bz);                                                  \
-    const Float corners = ab > fabs(cz) ? ab : fabs(cz);                                                         \
-    *far = corners * fabs(sz) > FAR_CORNERS * fabs(t);                                                           \
-    return t;                                                                                                    \
+#define HIT_DISTANCE(Float, Mask, width)                                                                        \
+  INLINE Float hitDistance##width(Float u, Float v, Float w, Float det, Float sz, Float az, Float bz, Float cz, \
+                                  Mask* far) {                                                                  \
+    /* Weights first: area times distance would overflow from coordinates of 1e13 m on. */                      \
+    const Float weight = sz / det;                                                                              \
+    const Float t = fma(u * weight, az, fma(v * weight, bz, w * weight * cz));                                  \
+    const Float ab = fabs(az) > fabs(bz) ? fabs(az) : fabs(bz);                                                 \
+    const Float corners = ab > fabs(cz) ? ab : fabs(cz);                                                        \
+    *far = corners * fabs(sz) > FAR_CORNERS * fabs(t);                                                          \
+    return t;                                                                                                   \
   }
 HIT_DISTANCE(float, int, )
 HIT_DISTANCE(float8, int8, 8)

@@ -22,8 +22,10 @@ INLINE float3 backgroundRadiance(const SceneView* scene, const RenderConstants* 
     const float fx = floor(x), fy = floor(y);
     const float wx = x - fx, wy = y - fy;
     const int ix = (int)fx, iy = (int)fy;
-    const float3 top = backgroundTexel(scene, constants, ix, iy) * (1.0f - wx) + backgroundTexel(scene, constants, ix + 1, iy) * wx;
-    const float3 low = backgroundTexel(scene, constants, ix, iy + 1) * (1.0f - wx) + backgroundTexel(scene, constants, ix + 1, iy + 1) * wx;
+    const float3 top = backgroundTexel(scene, constants, ix, iy) * (1.0f - wx) +
+                       backgroundTexel(scene, constants, ix + 1, iy) * wx;
+    const float3 low = backgroundTexel(scene, constants, ix, iy + 1) * (1.0f - wx) +
+                       backgroundTexel(scene, constants, ix + 1, iy + 1) * wx;
     return uniformRadiance * (top * (1.0f - wy) + low * wy);
   }
 #endif

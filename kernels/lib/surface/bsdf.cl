@@ -3,7 +3,9 @@
 #include "lib/surface/fresnel.cl"
 #include "lib/surface/surfel.cl"
 
-INLINE Mask isSmooth(const RenderConstants* constants, const Surfel* s) { return s->roughness < constants->mirrorRoughness; }
+INLINE Mask isSmooth(const RenderConstants* constants, const Surfel* s) {
+  return s->roughness < constants->mirrorRoughness;
+}
 
 /// Ratio of indices n_t/n_i for light arriving from the viewer's side.
 INLINE Real interfaceEta(const Surfel* s) {
@@ -25,11 +27,13 @@ INLINE Real3 dielectricReflectance(const Surfel* s, Real cosine, Mask* total) {
   Real3 reflectance = real3(r, r, r);
 #if HAS(SPECULAR_EXTENSION)
   // Untinted: the bits of the kernels without this extension.
-  const Mask plain = (s->specularF90 == 1.0f) & (s->specularF0.x == r0) & (s->specularF0.y == r0) & (s->specularF0.z == r0);
+  const Mask plain = (s->specularF90 == 1.0f) & (s->specularF0.x == r0) & (s->specularF0.y == r0) &
+                     (s->specularF0.z == r0);
   const Real3 f90 = real3(s->specularF90, s->specularF90, s->specularF90);
   const Real3 scaled = add3(s->specularF0, scale3((r - r0) / (1.0f - r0), sub3(f90, s->specularF0)));
   // Dense dielectrics dip below R0.
-  reflectance = choose3(plain | *total, reflectance, real3(clampUnit(scaled.x), clampUnit(scaled.y), clampUnit(scaled.z)));
+  reflectance = choose3(plain | *total, reflectance,
+                        real3(clampUnit(scaled.x), clampUnit(scaled.y), clampUnit(scaled.z)));
 #endif
   return choose3(opaque, s->specularF0, reflectance);
 }
@@ -52,8 +56,8 @@ INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s,
     const Real a2 = alpha * alpha;
     const Real k = cosH * cosH * (a2 - 1.0f) + 1.0f;
     const Real distribution = a2 / (PI * k * k);
-    const Real visibility =
-        0.5f / (cosI * sqrt(a2 + (1.0f - a2) * cosO * cosO) + cosO * sqrt(a2 + (1.0f - a2) * cosI * cosI));
+    const Real visibility = 0.5f /
+                            (cosI * sqrt(a2 + (1.0f - a2) * cosO * cosO) + cosO * sqrt(a2 + (1.0f - a2) * cosI * cosI));
     const Real lobe = distribution * visibility;
     const Real3 fresnel = schlick(s->specularF0, real3(s->specularF90, s->specularF90, s->specularF90), cosD);
     const Real largest = largestOfThree(fresnel.x, fresnel.y, fresnel.z);
@@ -79,7 +83,8 @@ typedef struct {
 } Impulse;
 
 #if HAS(MIRROR) || HAS(REFRACTION)
-INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real cosine, Real3 reflectance, Mask total) {
+INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real cosine,
+                             Real3 reflectance, Mask total) {
   Impulse impulse;
   const Mask inside = total & ((s->flags & MATERIAL_VOLUME) != 0) & (s->transmission > 0.0f);
   const Real3 aboutN = sub3(scale3(2.0f * cosine, s->n), w_o);
@@ -112,7 +117,8 @@ INLINE Impulse transmissionImpulse(const Surfel* s, Real3 w_o, Real3 reflectance
   const Real3 zero = same3((float3)(0.0f));
   impulse.w_i = minus3(w_o);
   const Real passing = s->alpha * (1.0f - s->metallic) * s->transmission;
-  impulse.magnitude = mul3(scale3(passing, s->baseColor), real3(1.0f - reflectance.x, 1.0f - reflectance.y, 1.0f - reflectance.z));
+  impulse.magnitude = mul3(scale3(passing, s->baseColor),
+                           real3(1.0f - reflectance.x, 1.0f - reflectance.y, 1.0f - reflectance.z));
 #if HAS(REFRACTION)
   const Real eta = interfaceEta(s);
   const Mask volume = (s->flags & MATERIAL_VOLUME) != 0;

@@ -39,7 +39,8 @@ INLINE Real interpolateUv(Real a, Real b, Real c, const Barycentrics* at, Real* 
   return sum;
 }
 
-INLINE void interpolateUvSet(__global const float* values, const Natural* corner, const Barycentrics* at, uint set, Uv* uv) {
+INLINE void interpolateUvSet(__global const float* values, const Natural* corner, const Barycentrics* at, uint set,
+                             Uv* uv) {
   const Natural a = corner[0] * 2u, b = corner[1] * 2u, c = corner[2] * 2u;
   uv->u[set] = interpolateUv(gather(values, a), gather(values, b), gather(values, c), at, &uv->uLow[set]);
   uv->v[set] = interpolateUv(gather(values + 1, a), gather(values + 1, b), gather(values + 1, c), at, &uv->vLow[set]);
@@ -120,7 +121,8 @@ INLINE Rgba baseColorAt(const SceneView* scene, const TrianglePoint* at) {
 #if HAS(VERTEX_COLORS)
   if (scene->colors) {
     for (uint n = 0; n < 4; ++n)
-      color.c[n] *= at->b0 * gather(scene->colors + n, at->corner[0] * 4u) + at->b1 * gather(scene->colors + n, at->corner[1] * 4u) +
+      color.c[n] *= at->b0 * gather(scene->colors + n, at->corner[0] * 4u) +
+                    at->b1 * gather(scene->colors + n, at->corner[1] * 4u) +
                     at->b2 * gather(scene->colors + n, at->corner[2] * 4u);
   }
 #endif

@@ -25,7 +25,9 @@ INLINE Real3 blend(const TrianglePoint* at, Real3 a, Real3 b, Real3 c) {
   return add3(add3(scale3(at->b0, a), scale3(at->b1, b)), scale3(at->b2, c));
 }
 
-INLINE Real3 fma3(Real s, Real3 v, Real3 plus) { return real3(fma(s, v.x, plus.x), fma(s, v.y, plus.y), fma(s, v.z, plus.z)); }
+INLINE Real3 fma3(Real s, Real3 v, Real3 plus) {
+  return real3(fma(s, v.x, plus.x), fma(s, v.y, plus.y), fma(s, v.z, plus.z));
+}
 
 /// Barycentrics of the hits at distance t of the rays o + t d, found again from where those points lie beside the first
 /// corner: a search's own are off by the rounding of distances to the ray's origin, which a texture shows on a far or
@@ -35,7 +37,8 @@ INLINE Real3 fma3(Real s, Real3 v, Real3 plus) { return real3(fma(s, v.x, plus.x
 INLINE Barycentrics refinedBarycentrics(Real3 p0, Real3 p1, Real3 p2, Real3 o, Real3 d, Real t, Barycentrics found) {
   const Real3 e1 = sub3(p1, p0), e2 = sub3(p2, p0);
   const Real3 from = sub3(o, p0), along = scale3(t, d), beside = add3(from, along);
-  const Real3 besideLow = add3(add3(sumError3(o, minus3(p0), from), fma3(t, d, minus3(along))), sumError3(from, along, beside));
+  const Real3 besideLow = add3(add3(sumError3(o, minus3(p0), from), fma3(t, d, minus3(along))),
+                               sumError3(from, along, beside));
   const Real3 across1 = cross3(e2, d), across2 = cross3(d, e1);
   const Real inverse = 1.0f / dot3(e1, across1);
   const Real free1 = dot3(beside, across1) * inverse, free2 = dot3(beside, across2) * inverse;
@@ -76,13 +79,14 @@ INLINE Real3 mappedNormal(const SceneView* scene, const TrianglePoint* at, Real3
   const Natural slots = MATERIAL_BITS(at, normalTexture);
   const Mask mapped = slots < 0x80000000u;
   if (!scene->tangents || !some(mapped)) return n;
-  const Real3 along = blend(at, gather3(scene->tangents, at->corner[0] * 4u), gather3(scene->tangents, at->corner[1] * 4u),
-                            gather3(scene->tangents, at->corner[2] * 4u));
+  const Real3 along = blend(at, gather3(scene->tangents, at->corner[0] * 4u),
+                            gather3(scene->tangents, at->corner[1] * 4u), gather3(scene->tangents, at->corner[2] * 4u));
   const Real3 tangent = normalize3(sub3(along, scale3(dot3(n, along), n)));
   const Real3 bitangent = scale3(gather(scene->tangents + 3, at->corner[0] * 4u), cross3(n, tangent));
   const Rgba texel = textureAt(scene, at, slots, normalTextureEncoding);
   const Real scale = MATERIAL(at, normalScale);
-  const Real x = (texel.c[0] * 2.0f - 1.0f) * scale, y = (texel.c[1] * 2.0f - 1.0f) * scale, z = texel.c[2] * 2.0f - 1.0f;
+  const Real x = (texel.c[0] * 2.0f - 1.0f) * scale, y = (texel.c[1] * 2.0f - 1.0f) * scale,
+             z = texel.c[2] * 2.0f - 1.0f;
   const Real3 tilted = normalize3(add3(add3(scale3(x, tangent), scale3(y, bitangent)), scale3(z, n)));
   return choose3(mapped & isFinite3(tangent) & isFinite3(tilted), tilted, n);
 }
@@ -106,7 +110,8 @@ INLINE void specularReflectance(const SceneView* scene, const TrianglePoint* at,
   tint = mul3(tint, real3(specularColor.c[0], specularColor.c[1], specularColor.c[2]));
 #endif
   const Real3 f0 = scale3(r0, tint), one = same3((float3)(1.0f));
-  s->specularF0 = scale3(strength, real3(f0.x < 1.0f ? f0.x : one.x, f0.y < 1.0f ? f0.y : one.y, f0.z < 1.0f ? f0.z : one.z));
+  s->specularF0 = scale3(strength,
+                         real3(f0.x < 1.0f ? f0.x : one.x, f0.y < 1.0f ? f0.y : one.y, f0.z < 1.0f ? f0.z : one.z));
   s->specularF90 = strength;
 #endif
 }

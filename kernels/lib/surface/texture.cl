@@ -42,7 +42,8 @@ typedef struct {
 } Rgba;
 
 INLINE Rgba fetchTexel(const SceneView* scene, const Records* texture, Mask x, Mask y, int srgb) {
-  const Natural first = FIELD_BITS(texture, DeviceTexture, firstTexel), width = FIELD_BITS(texture, DeviceTexture, width);
+  const Natural first = FIELD_BITS(texture, DeviceTexture, firstTexel),
+                width = FIELD_BITS(texture, DeviceTexture, width);
   const Natural at = first + AS_NATURAL(y) * width + AS_NATURAL(x);
   const Natural word = AS_NATURAL(gather((__global const float*)scene->texels, at));
   Rgba t;
@@ -61,8 +62,8 @@ INLINE Rgba chooseRgba(Mask m, Rgba a, Rgba b) {
 }
 
 /// The four texels around (u, v), which counts texels.
-INLINE Rgba blendTexels(const SceneView* scene, const Records* texture, Real u, Real v, Mask width, Mask height, Natural wrapS,
-                        Natural wrapT, int srgb) {
+INLINE Rgba blendTexels(const SceneView* scene, const Records* texture, Real u, Real v, Mask width, Mask height,
+                        Natural wrapS, Natural wrapT, int srgb) {
   const Real x = u - 0.5f, y = v - 0.5f;
   const Real fx = floor(x), fy = floor(y);
   const Real wx = x - fx, wy = y - fy;

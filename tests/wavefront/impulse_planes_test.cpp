@@ -1,6 +1,6 @@
 // Where no surface sends out two impulses, one set of planes holds them.
 #include "kernels/shared/layout.h"
-#include "single_rays.h"
+#include "support/single_rays.h"
 
 namespace whittle::test {
 namespace {

@@ -1,9 +1,9 @@
 // Branching in bounded memory: queues are cut, nothing is dropped, and long runs of one sample are sliced
 // alike.
-#include "agreement.h"
 #include "kernels/shared/features.h"
 #include "kernels/shared/layout.h"
-#include "single_rays.h"
+#include "support/agreement.h"
+#include "support/single_rays.h"
 
 namespace whittle::test {
 namespace {

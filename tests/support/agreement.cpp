@@ -1,5 +1,5 @@
 // See agreement.h.
-#include "agreement.h"
+#include "support/agreement.h"
 #include "wavefront/camera_to_device.h"
 
 #include <fmt/format.h>
@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
-#include "pictures.h"
 #include "reference/camera.h"
 #include "reference/sampler.h"
 #include "reference/trace.h"
+#include "support/pictures.h"
 #include "support/random_scenes.h"
 
 namespace whittle::test {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "gltf/loader.h"
+#include "programs/kernel_programs.h"
 #include "render/renderer.h"
 #include "support/test_device.h"
 
@@ -22,10 +23,17 @@ inline Settings smallSettings(int bounces = 8) {
   return settings;
 }
 
-/// Renders on the device and with the kernels that the environment selects, see support/test_device.h.
+/// Renders on the device and with the kernels that the environment selects, see support/test_device.h. All
+/// renders of a process share the device and what was compiled on it, unless the settings name one or
+/// launches are not timed.
 inline RenderResult renderOnDevice(const Scene& scene, Settings settings, RenderHooks hooks = {}) {
-  if (const char* selector = std::getenv("WHITTLE_TEST_DEVICE")) settings.device = selector;
   if (!hooks.kernelFolder) hooks.kernelFolder = testKernelFolder();
+  if (settings.device.empty() && hooks.timeStages) {
+    static OpenDevice shared{openTestDevice()};
+    hooks.device = &shared;
+  } else if (const char* selector = std::getenv("WHITTLE_TEST_DEVICE")) {
+    settings.device = selector;
+  }
   return render(scene, settings, hooks);
 }
 

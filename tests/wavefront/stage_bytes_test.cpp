@@ -1,6 +1,6 @@
 // Bytes that stages move, (wavefront/stages.h) against counts made by hand from what the kernels read and
 // write.
-#include "pictures.h"
+#include "support/pictures.h"
 
 namespace whittle::test {
 namespace {

@@ -1,5 +1,5 @@
 // What a render says about itself adds up, and its JSON has the keys that scripts depend on.
-#include "pictures.h"
+#include "support/pictures.h"
 
 namespace whittle::test {
 namespace {

@@ -2,8 +2,8 @@
 // back.
 #pragma once
 
-#include "pictures.h"
-#include "reference/probe.h"
+#include "support/pictures.h"
+#include "support/probe.h"
 
 namespace whittle::test {
 

@@ -7,9 +7,10 @@
 
 #include "analysis/feature_needs.h"
 #include "analysis/scene_features.h"
-#include "pictures.h"
+#include "cl/kernel_source.h"
 #include "programs/kernel_programs.h"
-#include "single_rays.h"
+#include "support/pictures.h"
+#include "support/single_rays.h"
 #include "support/test_device.h"
 #include "wavefront/stages.h"
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "analysis/largest_biradiance.h"
-#include "single_rays.h"
 #include "support/random_scenes.h"
+#include "support/single_rays.h"
 
 namespace whittle::test {
 namespace {

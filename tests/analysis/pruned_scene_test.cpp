@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "single_rays.h"
+#include "support/single_rays.h"
 
 namespace whittle::test {
 namespace {

@@ -1,7 +1,7 @@
 // Every row of kernels/shared/scene_tables.h at work: the kernels and the reference, which reads no table,
 // draw the same. A new row is tested here without a line more.
-#include "agreement.h"
 #include "analysis/scene_features.h"
+#include "support/agreement.h"
 #include "support/pictures.h"
 #include "support/single_rays.h"
 

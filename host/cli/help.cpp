@@ -1,6 +1,8 @@
 // Lays out help texts. The groups come in the order in which the command added them.
 #include "cli/help.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "report/text.h"
@@ -68,7 +70,7 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string, CLI::AppF
     std::string lines;
     for (const CLI::Option* option : app->get_options())
       if (option->get_group() == group) lines += line(nameOf(*option), textOf(*option), textColumn);
-    if (!lines.empty() && !group.empty()) out += "\n" + group + "\n" + lines;
+    if (!lines.empty() && !group.empty()) out += fmt::format("\n{}\n{}", group, lines);
   }
   const std::string footer = app->get_footer();
   return footer.empty() ? out : out + "\n" + footer + "\n";

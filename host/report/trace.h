@@ -32,9 +32,9 @@ class Trace {
 
   /// `queued`: when the launch reached the queue, in seconds of the device's clock. That clock is its own;
   /// the launch that both saw within the shortest time ties it to the host's.
-  void launch(Launch record, double queued) {
+  void launch(const Launch& record, double queued) {
     hostMinusDevice_ = std::min(hostMinusDevice_, record.enqueued - queued);
-    launches_.push_back(std::move(record));
+    launches_.push_back(record);
   }
   /// From `start` to now; `name` is kept as it is, not copied. May be called from several threads.
   void phase(const char* name, Clock::time_point start, Track track = Track::Host);

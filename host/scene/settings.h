@@ -2,7 +2,6 @@
 // show the same.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,13 +19,12 @@ struct Word {
   const char* word;
   T value;
 };
-inline constexpr std::array kSearchWords{Word{"auto", Search::Auto}, Word{"tree", Search::Tree},
-                                         Word{"array", Search::Array}};
-inline constexpr std::array kSamplerWords{
-    Word{"random", Sampler::Random}, Word{"stratified", Sampler::Stratified}, Word{"sobol", Sampler::Sobol}};
-inline constexpr std::array kImpulseWords{Word{"all", ImpulseMode::All}, Word{"one", ImpulseMode::One}};
-inline constexpr std::array kLanesWords{Word{"auto", Lanes::Auto}, Word{"1", Lanes::One},
-                                        Word{"16", Lanes::Sixteen}};
+inline constexpr Word<Search> kSearchWords[]{
+    {"auto", Search::Auto}, {"tree", Search::Tree}, {"array", Search::Array}};
+inline constexpr Word<Sampler> kSamplerWords[]{
+    {"random", Sampler::Random}, {"stratified", Sampler::Stratified}, {"sobol", Sampler::Sobol}};
+inline constexpr Word<ImpulseMode> kImpulseWords[]{{"all", ImpulseMode::All}, {"one", ImpulseMode::One}};
+inline constexpr Word<Lanes> kLanesWords[]{{"auto", Lanes::Auto}, {"1", Lanes::One}, {"16", Lanes::Sixteen}};
 constexpr const auto& wordsOf(Search) { return kSearchWords; }
 constexpr const auto& wordsOf(Sampler) { return kSamplerWords; }
 constexpr const auto& wordsOf(ImpulseMode) { return kImpulseWords; }

@@ -13,7 +13,7 @@ void KernelArguments::set(std::size_t bytes, const void* value) {
 
 void KernelArguments::add(const Buffer& buffer) {
   const cl_mem handle = buffer ? buffer.handle() : nullptr;
-  set(sizeof(handle), buffer ? &handle : nullptr);
+  set(sizeof(cl_mem), buffer ? &handle : nullptr);
 }
 
 void KernelArguments::add(const SceneArgument& argument) {

@@ -2,6 +2,9 @@
 #include "shared/features.h"
 #include "shared/layout.h"
 #pragma OPENCL FP_CONTRACT OFF
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wpsabi"  // sixteen floats passed without AVX-512: every function is put in line
+#endif
 
 // A work-group function of PoCL is compiled three times over, so that no helper is called once only and few would be
 // put in line; in line they take a tenth less time in shade.

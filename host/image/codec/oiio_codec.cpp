@@ -159,7 +159,7 @@ void linearise(FloatImage& image, const OIIO::ImageSpec& spec) {
 }
 
 /// Encodes in memory, then writes the file whole.
-void encodeAndWrite(const fs::path& path, const std::string& format, OIIO::ImageSpec spec,
+void encodeAndWrite(const fs::path& path, const std::string& format, const OIIO::ImageSpec& spec,
                     const void* pixels) {
   const std::string name = path.string();
   OIIO::Filesystem::IOVecOutput memory;  // outlives the writer, whose destructor may still use it

@@ -19,7 +19,8 @@ template <typename T>
 Json settingToJson(const T& value) {
   if constexpr (std::is_enum_v<T>) {
     const auto& words = wordsOf(value);
-    return std::find_if(std::begin(words), std::end(words), [&](const auto& w) { return w.value == value; })->word;
+    return std::find_if(std::begin(words), std::end(words), [&](const auto& w) { return w.value == value; })
+        ->word;
   } else {
     return value;
   }

@@ -99,6 +99,7 @@ std::vector<Question> textureQuestions(const Needs& n) {
 /// A question for each light type.
 std::vector<Question> lightTypeQuestions(const Needs& n) {
   std::vector<Question> questions;
+  questions.reserve(std::size(kLightTypes));
   for (const LightType& type : kLightTypes)
     questions.push_back({featureOf(type.kind),
                          n.anyLight([&](const Light& l) { return l.kind == type.kind; }),

@@ -124,6 +124,7 @@ std::vector<cl::Program> compileOnce(OpenDevice& device, const std::vector<Kerne
   const auto built = compilePrograms(device.compute, newPrograms, target, beside);
   for (std::size_t i = 0; i < built.size(); ++i) device.programs.emplace(newKeys[i], built[i]);
   std::vector<cl::Program> all;
+  all.reserve(keys.size());
   for (const std::string& key : keys) all.push_back(device.programs.at(key));
   return all;
 }

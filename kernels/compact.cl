@@ -67,10 +67,21 @@ __kernel void compact_shadow(const uint count, __global const EntryFlags* flags,
     if (flags[i] & ENTRY_SHADOW) shadowQueue[out++] = i;
 }
 
-__kernel void compact_impulse(const uint first, const uint count, const uint capacity, __global const EntryFlags* flags,
-                              __global const uint* offsets, __global const float* impulses,
-                              __global const float* rays,  // the queue the impulses came from: slots
-                              __global float* next) {      // [RAY_PLANES][capacity]
+#if HAS(STRAIGHT)
+/// What an impulse of an entry adds to the steps of its ray.
+INLINE uint stepOf(uint flags, int straight, uint steps) {
+  if (!straight) return STEP_BOUNCE;
+  const int counts = (flags & ENTRY_BRANCHED) && steps / STEP_BRANCHED < 63u;
+  return STEP_STRAIGHT + (counts ? STEP_BRANCHED : 0u);
+}
+#endif
+
+__kernel void compact_impulse(const uint first, const uint count, const uint capacity, const uint bounce,
+                              __global const EntryFlags* flags, __global const uint* offsets,
+                              __global const float* impulses,
+                              __global const float* rays,  // the queue the impulses came from: slots, steps
+                              __global const float* hits,  // read with STRAIGHT
+                              __global float* next) {      // [RAY_PLANES][capacity], RAY_PLANES_STRAIGHT
   const uint chunk = get_global_id(0);
   const uint begin = chunk * COMPACT_CHUNK;
   if (begin >= count) return;
@@ -82,6 +93,14 @@ __kernel void compact_impulse(const uint first, const uint count, const uint cap
       for (uint plane = 0; plane < IMPULSE_PLANES; ++plane)
         next[(size_t)plane * capacity + out] = impulses[(size_t)(k * IMPULSE_PLANES + plane) * capacity + i];
       next[(size_t)RAY_SLOT * capacity + out] = rays[(size_t)RAY_SLOT * capacity + first + i];
+#if HAS(STRAIGHT)
+      const int straight = (flags[i] & (ENTRY_STRAIGHT0 << k)) != 0;
+      const uint steps = bounce > 1 ? as_uint(rays[(size_t)RAY_STEPS * capacity + first + i]) : STEP_BOUNCE;
+      next[(size_t)RAY_AFTER_ORDER * capacity + out] = straight ? hits[(size_t)HIT_ORDER * capacity + i] : 0.0f;
+      next[(size_t)RAY_AFTER_TRIANGLE * capacity + out] = straight ? hits[(size_t)HIT_TRIANGLE * capacity + i]
+                                                                   : as_float(NO_HIT);
+      next[(size_t)RAY_STEPS * capacity + out] = as_float(steps + stepOf(flags[i], straight, steps));
+#endif
       ++out;
     }
   }

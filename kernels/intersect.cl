@@ -3,10 +3,31 @@
 // ray first + i. (An argument, not a feature: what asks for distances leaves the searches as they are.)
 #include "lib/search/traverse_packet.cl"
 
+#if HAS(STRAIGHT) && HAS(PACKETS)
+/// What sixteen rays have passed; `rays` begins at the first. Lanes out of use copy that one, as above.
+INLINE void passSurfaces(const SceneView* scene, __global const float* rays, size_t stride, int16 awake, Packet* p) {
+  __global const float* orders = rays + RAY_AFTER_ORDER * stride;
+  float order[PACKET_RAYS];
+  uint primitive[PACKET_RAYS];
+  int used[PACKET_RAYS];
+  vstore16(awake, 0, used);
+  for (uint k = 0; k < PACKET_RAYS; ++k) {
+    const uint own = used[k] ? k : 0;
+    const Passed passed = passedSurface(scene, orders[own], as_uint(rays[RAY_AFTER_TRIANGLE * stride + own]));
+    order[k] = passed.order;
+    primitive[k] = passed.primitive;
+  }
+  p->passedOrder = vload16(0, order);
+  p->passedPrimitive = vload16(0, primitive);
+  p->tMin = p->passedOrder * PASSED_MARGIN;
+}
+#endif
+
 __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const uint capacity,
                         __global const float* rays,  // [RAY_PLANES][capacity]
                         __global float* hits,        // [hitPlanes][capacity]
-                        const uint hitPlanes) {
+                        const uint hitPlanes,
+                        const uint continued) {  // 1: some rays went straight on (RAY_AFTER_…)
   const SceneView scene = SCENE_VIEW;
   const size_t stride = capacity;
 #if HAS(PACKETS)
@@ -22,13 +43,24 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
     o[a] = select((float16)(from[0]), vload16(0, from), awake);
     d[a] = select((float16)(along[0]), vload16(0, along), awake);
   }
+#if HAS(STRAIGHT)
+  Packet p = makePacket(o, d);
+  if (continued) passSurfaces(&scene, rays + first + i, stride, awake, &p);
+#else
   const Packet p = makePacket(o, d);
+#endif
   PacketHit hit;
   hit.t = select((float16)(-1.0f), (float16)(MAXFLOAT), awake);
   hit.triangle = (uint16)(NO_HIT);
   hit.v = hit.w = (float16)(0.0f);
   hit.det = (float16)(1.0f);
+#if HAS(STRAIGHT)
+  hit.order = hit.t;
+#endif
   nearestPacket(&scene, &p, &hit);
+#if HAS(STRAIGHT)
+  vstore16(hit.order, 0, hits + HIT_ORDER * stride + i);
+#endif
   if (hitPlanes > HIT_T) vstore16(hit.t, 0, hits + HIT_T * stride + i);
   vstore16(as_float16(hit.triangle), 0, hits + HIT_TRIANGLE * stride + i);
   vstore16(hit.v / hit.det, 0, hits + HIT_B1 * stride + i);
@@ -36,8 +68,17 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
 #else
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
+#if HAS(STRAIGHT)
+  Ray r = makeRay(loadReal3(rays, capacity, RAY_O, first + i), loadReal3(rays, capacity, RAY_D, first + i));
+  if (continued)
+    r.passed = passedSurface(&scene, rays[RAY_AFTER_ORDER * stride + first + i],
+                             as_uint(rays[RAY_AFTER_TRIANGLE * stride + first + i]));
+  const Hit hit = nearestSingle(&scene, &r);
+  hits[HIT_ORDER * stride + i] = hit.order;
+#else
   const Ray r = makeRay(loadReal3(rays, capacity, RAY_O, first + i), loadReal3(rays, capacity, RAY_D, first + i));
   const Hit hit = nearestSingle(&scene, &r);
+#endif
   if (hitPlanes > HIT_T) hits[HIT_T * stride + i] = hit.t;
   hits[HIT_TRIANGLE * stride + i] = as_float(hit.triangle);
   hits[HIT_B1 * stride + i] = hit.b1;

@@ -16,6 +16,11 @@ typedef struct {
   Real t, b1, b2;
   Natural triangle;  // where nothing is hit, one that another lane hits
   Mask hit;
+#if HAS(STRAIGHT)
+  Real passed;           // distance up to which the ray has gone straight on, 0: not yet
+  Mask bounces, goesOn;  // may still do so: be reflected or refracted, go straight on
+  Mask hasBranched;      // too often to follow impulses that carry little (BRANCH_SHARE)
+#endif
 } Arrivals;
 
 /// Entry i and its neighbours of a segment that begins at `first` and has `count`.
@@ -41,6 +46,32 @@ INLINE Arrivals loadArrivals(__global const float* rays, __global const float* h
   for (uint k = 0; k < LANES; ++k) there = hit[k] ? triangle[k] : there;
   a.triangle = a.hit ? a.triangle : (Natural)(there);
   return a;
+}
+
+#if HAS(STRAIGHT)
+/// What the rays have done so far; eye rays (bounce 1) come from nowhere.
+INLINE void loadSteps(__global const float* rays, uint entry, uint capacity, uint bounce, uint lastBounce,
+                      uint transparentBounces, Arrivals* a) {
+  Natural steps = (Natural)(STEP_BOUNCE);
+  a->passed = (Real)(0.0f);
+  if (bounce > 1) {
+    steps = AS_NATURAL(LOAD(rays + (size_t)RAY_STEPS * capacity + entry));
+    a->passed = LOAD(rays + (size_t)RAY_AFTER_ORDER * capacity + entry);
+  }
+  const Natural bounces = steps & (STEP_STRAIGHT - 1);
+  a->bounces = bounces < lastBounce;
+  a->goesOn = (steps & (STEP_BRANCHED - 1)) / STEP_STRAIGHT < transparentBounces;
+  a->hasBranched = bounces + steps / STEP_BRANCHED >= lastBounce;
+}
+#endif
+
+/// How far the rays came since they last met something.
+INLINE Real distanceInside(const Arrivals* a) {
+#if HAS(STRAIGHT)
+  return a->t - a->passed;
+#else
+  return a->t;
+#endif
 }
 
 /// exp(-sigma t), 1 where sigma is 0; lane by lane, since exp of a vector may round otherwise.
@@ -129,10 +160,15 @@ INLINE Natural cutOffUnits(Real3 throughput, float cutoff) {
 #if HAS(IMPULSES)
 /// Stores impulse k of the entries from i, where it carries anything, in the k-th set of planes; returns its flags
 /// and what was cut off, to be added up.
-INLINE Natural storeImpulse(const RenderConstants* constants, const Surfel* s, const Impulse* impulse, Mask hit,
-                            Real3 throughput, uint k, uint i, uint capacity, __global float* impulses) {
+INLINE Natural storeImpulse(const RenderConstants* constants, const Arrivals* a, const Surfel* s,
+                            const Impulse* impulse, Real3 throughput, uint k, uint i, uint capacity,
+                            __global float* impulses) {
   const Real3 carried = mul3(throughput, impulse->magnitude);
-  Mask sent = hit & anyPositive(carried) & isFinite3(impulse->w_i);
+  Mask sent = a->hit & anyPositive(carried) & isFinite3(impulse->w_i);
+#if HAS(STRAIGHT)
+  const Mask little = !(largestOfThree(carried.x, carried.y, carried.z) >= BRANCH_SHARE);
+  sent = sent & (impulse->straight ? a->goesOn : a->bounces & !(a->hasBranched & little));
+#endif
   Natural cut = (Natural)(0);
 #if HAS(CUTOFF)
   const float cutoff = constants->cutoff;
@@ -142,10 +178,16 @@ INLINE Natural storeImpulse(const RenderConstants* constants, const Surfel* s, c
 #endif
   if (!some(sent)) return cut;
   const uint base = k * IMPULSE_PLANES;
-  storeReal3(impulses, capacity, base + IMPULSE_O, i, offsetOrigin(constants, s, impulse->w_i));
+  Real3 origin = offsetOrigin(constants, s, impulse->w_i);
+  Natural flags = (Natural)(ENTRY_IMPULSE0 << k);
+#if HAS(STRAIGHT)
+  origin = choose3(impulse->straight, a->o, origin);
+  flags = impulse->straight ? flags | (ENTRY_STRAIGHT0 << k) : flags;
+#endif
+  storeReal3(impulses, capacity, base + IMPULSE_O, i, origin);
   storeReal3(impulses, capacity, base + IMPULSE_D, i, impulse->w_i);
   storeReal3(impulses, capacity, base + IMPULSE_THROUGHPUT, i, carried);
-  return cut + (sent ? (Natural)(ENTRY_IMPULSE0 << k) : (Natural)(0));
+  return cut + (sent ? flags : (Natural)(0));
 }
 
 /// Radiance, or NaN where an impulse's magnitude is: that is not traced, but the film has to count the sample.
@@ -167,6 +209,14 @@ INLINE void chooseOne(Impulse* first, Impulse* second, Real u) {
 }
 #endif
 
+#if HAS(STRAIGHT) && HAS(BOTH_BRANCHES)
+/// ENTRY_BRANCHED where there are two impulses, one of them straight on.
+INLINE Natural branching(const Impulse* first, const Impulse* second) {
+  const Mask two = anyPositive(first->magnitude) & anyPositive(second->magnitude);
+  return two & (first->straight | second->straight) ? (Natural)(ENTRY_BRANCHED) : (Natural)(0);
+}
+#endif
+
 #if HAS(IMPULSES) && !HAS(BOTH_BRANCHES)
 /// Where no surface sends out two impulses: the one there is.
 INLINE Impulse existing(const Impulse* first, const Impulse* second) {
@@ -174,6 +224,7 @@ INLINE Impulse existing(const Impulse* first, const Impulse* second) {
   Impulse only;
   only.w_i = choose3(isSecond, second->w_i, first->w_i);
   only.magnitude = choose3(isSecond, second->magnitude, first->magnitude);
+  only.straight = isSecond ? second->straight : first->straight;
   return only;
 }
 #endif
@@ -246,7 +297,12 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;
   const RenderConstants own = constants;
+#if HAS(STRAIGHT)
+  Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
+  loadSteps(rays, first + i, capacity, bounce, lastBounce, own.transparentBounces, &a);
+#else
   const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
+#endif
 #if HAS(AOVS) || HAS(ONE_IMPULSE)
   const Batch ownBatch = batch;
   const uint active = count - i < LANES ? count - i : LANES;
@@ -261,7 +317,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
   if (some(a.hit)) {
     s = surfelAt(&scene, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
     const Real3 w_o = minus3(a.d);
-    const Real3 attenuation = absorptionAlong(&s, a.t);
+    const Real3 attenuation = absorptionAlong(&s, distanceInside(&a));
     Real3 shaded = mul3(scale3(s.alpha, s.emission), attenuation);
 #if HAS(UNLIT)
     shaded = choose3((s.flags & MATERIAL_UNLIT) != 0, mul3(scale3(s.alpha, s.baseColor), attenuation), shaded);
@@ -271,7 +327,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
       found = found | directLight(&scene, &own, &s, w_o, a.hit, 0, attenuation, i, capacity, shadows, &shaded);
 #endif
 #if HAS(IMPULSES)
-    if (bounce < lastBounce) {
+    if (HAS(STRAIGHT) || bounce < lastBounce) {
       Impulse one, two;
       impulsesAt(&own, &s, w_o, &one, &two);
       shaded = spoiltBy(shaded, add3(one.magnitude, two.magnitude));
@@ -281,11 +337,14 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
       Real3 throughput = attenuation;
       if (bounce > 1) throughput = mul3(loadReal3(rays, capacity, RAY_THROUGHPUT, first + i), attenuation);
 #if HAS(BOTH_BRANCHES)
-      found = found + storeImpulse(&own, &s, &one, a.hit, throughput, 0, i, capacity, impulses);
-      found = found + storeImpulse(&own, &s, &two, a.hit, throughput, 1, i, capacity, impulses);
+#if HAS(STRAIGHT)
+      found = found + branching(&one, &two);
+#endif
+      found = found + storeImpulse(&own, &a, &s, &one, throughput, 0, i, capacity, impulses);
+      found = found + storeImpulse(&own, &a, &s, &two, throughput, 1, i, capacity, impulses);
 #else
       const Impulse only = existing(&one, &two);
-      found = found + storeImpulse(&own, &s, &only, a.hit, throughput, 0, i, capacity, impulses);
+      found = found + storeImpulse(&own, &a, &s, &only, throughput, 0, i, capacity, impulses);
 #endif
     }
 #endif
@@ -300,17 +359,23 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 
 #if HAS(LIGHTS)
 __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const uint first, const uint count,
-                          const uint capacity, const uint light, __global const float* rays, __global const float* hits,
-                          __global float* entryRadiance, __global float* shadows, __global EntryFlags* flags) {
+                          const uint capacity, const uint bounce, const uint light, __global const float* rays,
+                          __global const float* hits, __global float* entryRadiance, __global float* shadows,
+                          __global EntryFlags* flags) {
   const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;
   const RenderConstants own = constants;
+#if HAS(STRAIGHT)
+  Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
+  loadSteps(rays, first + i, capacity, bounce, 0, 0, &a);
+#else
   const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
+#endif
   Natural found = (Natural)(0);
   if (some(a.hit)) {
     const Surfel s = surfelAt(&scene, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
-    const Real3 attenuation = absorptionAlong(&s, a.t);
+    const Real3 attenuation = absorptionAlong(&s, distanceInside(&a));
     Real3 radiance = loadReal3(entryRadiance, capacity, 0, i);
     found = directLight(&scene, &own, &s, minus3(a.d), a.hit, light, attenuation, i, capacity, shadows, &radiance);
     storeReal3(entryRadiance, capacity, 0, i, radiance);

@@ -1,5 +1,5 @@
 // The table of needs follows the conditions of kernels/shade.cl, occlude.cl and kernels/lib, and
-// tests/render/features_test.cpp holds it against them; what --keep-features keeps is closed under it.
+// tests/analysis/features_test.cpp holds it against them; what --keep-features keeps is closed under it.
 #include "analysis/feature_needs.h"
 
 #include <fmt/format.h>
@@ -21,6 +21,7 @@ std::map<Feature, std::string> contradictions(const Settings& s) {
   if (s.lanes == Lanes::One) out[Feature::PACKETS] = "--lanes is 1";
   if (s.search == Search::Array) out[Feature::TREE] = "--search is array";
   if (!s.shadows) out[Feature::SHADOWS] = "shadows are switched off";
+  if (s.backFaces == BackFaces::Show) out[Feature::ONE_SIDED] = "--back-faces is show";
   if (s.impulses == ImpulseMode::All) out[Feature::ONE_IMPULSE] = "--impulses is all";
   return out;
 }
@@ -71,6 +72,8 @@ std::vector<FeatureNeed> otherNeeds() {
       {F::REFRACTION, {F::TRANSMISSION}},
       {F::ABSORPTION, {F::TRANSMISSION, F::UNLIT}},  // a way into a volume
       {F::ALPHA_BLEND, {F::IMPULSES}},
+      {F::ALPHA_BLEND, {F::STRAIGHT}},
+      {F::STRAIGHT, {F::IMPULSES}},
       {F::BOTH_BRANCHES, {F::IMPULSES}},
       {F::ONE_IMPULSE, {F::IMPULSES}},
       {F::CUTOFF, {F::IMPULSES}},

@@ -17,6 +17,7 @@ constexpr float kMargin = 1e-5F;  ///< relative; what is interpolated loses less
 Material unlitParts(const Material& m, bool showsNormal) {
   Material read;
   read.unlit = true;
+  read.doubleSided = m.doubleSided;
   read.baseColor = m.baseColor;
   read.baseColorTexture = m.baseColorTexture;
   read.volume = m.volume;
@@ -78,7 +79,9 @@ Material asRead(const Material& m, const Settings& settings) {
   read.name.clear();
   read.occlusionStrength = 1.0F;
   read.occlusionTexture = {};
-  if (!emits(read)) read.doubleSided = false;  // decides which sides emit, nothing else
+  // It decides which sides are seen, where light does not pass, and which sides emit.
+  const bool hidesBack = settings.backFaces == BackFaces::Cull && !read.volume && !transmits(read);
+  if (!emits(read) && !hidesBack) read.doubleSided = false;
   dropTexturesTimes0(read);
   if (!read.normalTexture.used()) read.normalScale = 1.0F;
   if (!read.volume) read.sigma_a = glm::vec3(0.0F);

@@ -183,7 +183,8 @@ double cutOffThroughput(const Settings& settings, const std::vector<std::uint64_
 double biasBound(const Scene& scene, const Settings& settings, const std::vector<double>& cutOffPerSample) {
   if (std::all_of(cutOffPerSample.begin(), cutOffPerSample.end(), [](double units) { return units == 0.0; }))
     return 0;
-  const std::vector<glm::dvec3> bounds = radianceBounds(scene, settings, settings.bounces);
+  const auto hits = static_cast<int>(cutOffPerSample.size());
+  const std::vector<glm::dvec3> bounds = radianceBounds(scene, settings, hits);
   const double unit = static_cast<double>(settings.cutoff) / CUTOFF_UNITS;
   glm::dvec3 lost(0);
   for (std::size_t i = 0; i < cutOffPerSample.size(); ++i)

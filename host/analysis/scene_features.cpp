@@ -45,7 +45,9 @@ class Needs {
   bool anyMaterial(bool (*asked)(const Material&, float)) const {
     return anyMaterial([&](const Material& m) { return asked(m, settings.mirrorRoughness); });
   }
-  bool impulses() const { return settings.bounces > 1 && anyMaterial(canSendImpulses); }
+  bool bounces() const { return settings.bounces > 1 && anyMaterial(canSendImpulses); }
+  bool straight() const { return anyMaterial(goesStraightOn); }
+  bool impulses() const { return bounces() || straight(); }
   bool shadows() const {
     return settings.shadows && lit() && anyLight([](const Light& l) { return l.castsShadows; });
   }
@@ -129,11 +131,15 @@ std::vector<Question> lightQuestions(const Needs& n) {
 
 std::vector<Question> impulseQuestions(const Needs& n) {
   using F = Feature;
-  const bool some = n.impulses();
+  const bool some = n.bounces();
   const char* const none = n.settings.bounces <= 1 ? "one bounce sends out no impulses"
                                                    : "no material is smooth, transmits or blends";
   return {
-      {F::IMPULSES, some, none, n.settings.bounces <= 1},
+      {F::IMPULSES, n.impulses(), none, n.settings.bounces <= 1},
+      {F::STRAIGHT, n.straight(), "no surface lets light straight on", n.settings.bounces <= 1},
+      {F::ONE_SIDED, n.settings.backFaces == BackFaces::Cull && n.anyMaterial(showsFrontOnly),
+       n.settings.backFaces == BackFaces::Cull ? "every surface has two sides" : "back faces are shown",
+       true},
       {F::METAL, n.anyMaterial(isMetallic), "no material is metallic"},
       {F::MIRROR, some && n.anyMaterial(canReflect), some ? "no smooth material reflects" : none},
       {F::TRANSMISSION, n.anyMaterial(transmits), "no material transmits"},

@@ -55,6 +55,12 @@ class SceneFeatures {
   std::vector<FeatureLine> lines_;
 };
 
+/// Hits that a path may have at most: the settings' bounces, and where rays go straight on the surfaces that
+/// they pass besides.
+inline int mostHits(const SceneFeatures& features, const Settings& settings) {
+  return settings.bounces + (features.has(Feature::STRAIGHT) ? settings.transparentBounces : 0);
+}
+
 /// Below this many triangles `--search auto` takes the array: measured crossing, see experiments/.
 inline constexpr std::size_t kArrayBelowTriangles = 12;
 

@@ -102,7 +102,8 @@ void noteShortRows(const BenchResult& r) {
 void runBenchCommand(BenchCommand& o) {
   Notices notices;
   if (!o.kernelFolder.empty()) o.bench.kernelFolder = o.kernelFolder;
-  const Scene scene = loadScene(o.scene, notices);
+  Settings settings;
+  const Scene scene = loadScene(o.scene, settings, notices);
   BenchResult result;
   {
     ProgressBar bar(o.scene.quiet);

@@ -12,6 +12,7 @@
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "render/renderer.h"
+#include "scene/camera.h"
 #include "wavefront/camera_to_device.h"
 #include "wavefront/stages.h"
 
@@ -35,10 +36,10 @@ void checkAovs(InfoOptions& o) {
 
 /// The render's own set-up where there is a device for it, so that sizes are real; else what a CPU device
 /// would do.
-void runInfo(const InfoOptions& o) {
+void runInfo(InfoOptions& o) {
   Notices notices;
   notices.notes = uselessOptions(o.settings);
-  const Scene scene = loadScene(o.scene, notices);
+  const Scene scene = loadScene(o.scene, o.settings, notices);
   findCamera(scene, o.settings.camera);
   limitCpuThreads(o.settings.threads);
   std::optional<RenderPlan> plan;
@@ -55,7 +56,7 @@ void runInfo(const InfoOptions& o) {
   const SceneFeatures features =
       plan ? plan->features : SceneFeatures::analyse(scene, pruned, o.settings, {});
   const auto stages =
-      plan ? plan->stages : plannedStages({features, pruned.lights.size(), o.settings.bounces});
+      plan ? plan->stages : plannedStages({features, pruned.lights.size(), mostHits(features, o.settings)});
   const InfoReport report{scene, notices, features, pruned.pruning, stages, plan, problem};
   if (o.json)
     fmt::print("{}\n",
@@ -76,7 +77,7 @@ void addInfo(CLI::App& app, int& status) {
   addSeveral(
       *c, "--aov", o->aovTexts, "NAME",
       "plan with the buffers of this auxiliary output; NAME=FILE.exr, as render takes it, writes nothing");
-  addPictureOptions(*c, o->settings);
+  addPictureOptions(*c, o->settings, o->scene);
   addErrorOptions(*c, o->settings);
   addDeviceOptions(*c, o->settings);
   c->footer("Example: whittle info scene.glb --bounces 1");

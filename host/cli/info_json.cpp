@@ -12,6 +12,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json toJson(const glm::vec3& v) { return {jsonFloat(v.x), jsonFloat(v.y), jsonFloat(v.z)}; }
+/// A point of the scene in the file's coordinates.
+Json toJson(const glm::vec3& p, const glm::dvec3& origin) {
+  if (origin == glm::dvec3(0.0)) return toJson(p);
+  return {static_cast<double>(p.x) + origin.x, static_cast<double>(p.y) + origin.y,
+          static_cast<double>(p.z) + origin.z};
+}
 /// JSON has no infinity: null for "no limit".
 Json finiteOrNull(float value) { return std::isfinite(value) ? Json(jsonFloat(value)) : Json(nullptr); }
 
@@ -20,7 +26,8 @@ Json camerasJson(const Scene& scene) {
   for (const auto& c : scene.cameras) {
     cameras.push_back({{"name", c.name},
                        {"orthographic", c.orthographic},
-                       {"position", toJson(c.position)},
+                       {"node", c.node},
+                       {"position", toJson(c.position, scene.origin)},
                        {"forward", toJson(c.forward)},
                        {"up", toJson(c.up)}});
     cameras.back()[c.orthographic ? "ymag" : "yfov"] = jsonFloat(c.orthographic ? c.ymag : c.yfov);
@@ -37,7 +44,8 @@ Json lightsJson(const Scene& scene) {
                       {"castsShadows", l.castsShadows},
                       {"intensity", toJson(l.intensity)}});
     Json& light = lights.back();
-    if (type.isPlaced) light["position"] = toJson(l.position), light["range"] = finiteOrNull(l.range);
+    if (type.isPlaced)
+      light["position"] = toJson(l.position, scene.origin), light["range"] = finiteOrNull(l.range);
     if (type.isAimed) light["direction"] = toJson(l.direction);
     if (type.hasCone) {
       light["innerConeAngle"] = jsonFloat(l.innerConeAngle);

@@ -8,6 +8,7 @@
 #include "cl/program.h"
 #include "cli/info_features.h"
 #include "cli/info_report.h"
+#include "cli/viewpoint.h"
 #include "report/text.h"
 
 namespace whittle::cli {
@@ -35,17 +36,20 @@ std::size_t widestName(const Items& items) {
   return std::min<std::size_t>(widest, 24);
 }
 
-std::string cameraText(const Camera& c) {
+std::string cameraText(const Camera& c, const glm::dvec3& origin) {
   const std::string lens =
       c.orthographic ? fmt::format("orthographic, {} m high", formatReal(2.0 * static_cast<double>(c.ymag)))
                      : fmt::format("perspective, {:.1f}° high", static_cast<double>(c.yfov) * kDegrees);
-  return fmt::format("{}, at {} m, looking {}", lens, vectorText(c.position), vectorText(c.forward));
+  const glm::vec3 at(glm::dvec3(c.position) + origin);
+  const std::string again = viewpointText(c, origin);
+  return fmt::format("{}, at {} m, looking {}{}", lens, vectorText(at), vectorText(c.forward),
+                     again.empty() ? "" : "; " + again);
 }
 
-std::string lightText(const Light& l) {
+std::string lightText(const Light& l, const glm::dvec3& origin) {
   const LightType& type = typeOf(l.kind);
   std::string text = fmt::format("{}, {} {}", type.word, vectorText(l.intensity), type.unit);
-  if (type.isPlaced) text += fmt::format(", at {} m", vectorText(l.position));
+  if (type.isPlaced) text += fmt::format(", at {} m", vectorText(glm::vec3(glm::dvec3(l.position) + origin)));
   if (type.isAimed) text += fmt::format(", shining {}", vectorText(l.direction));
   if (type.hasCone)
     text += fmt::format(", half angle {:.1f}° to {:.1f}°", static_cast<double>(l.innerConeAngle) * kDegrees,
@@ -64,7 +68,8 @@ std::string boundsText(const Scene& scene) {
   const std::string text =
       fmt::format("{} × {} × {} m, from {} to {}", formatReal(static_cast<double>(size.x)),
                   formatReal(static_cast<double>(size.y)), formatReal(static_cast<double>(size.z)),
-                  vectorText(lo), vectorText(hi));
+                  vectorText(glm::vec3(glm::dvec3(lo) + scene.origin)),
+                  vectorText(glm::vec3(glm::dvec3(hi) + scene.origin)));
   return "  " + wrapped(text, 78, 4) + "\n";
 }
 
@@ -78,11 +83,11 @@ std::string contents(const Scene& s) {
   out += boundsText(s);
   out += fmt::format("  {}\n", formatSome(s.cameras.size(), "camera", "cameras"));
   for (std::size_t i = 0; i < s.cameras.size(); ++i)
-    out += entry(i, s.cameras[i].name, widestName(s.cameras), cameraText(s.cameras[i]));
+    out += entry(i, s.cameras[i].name, widestName(s.cameras), cameraText(s.cameras[i], s.origin));
   out += fmt::format("  {}\n", formatSome(s.lights.size(), "light", "lights"));
   constexpr std::size_t kShown = 20;
   for (std::size_t i = 0; i < std::min(s.lights.size(), kShown); ++i)
-    out += entry(i, s.lights[i].name, widestName(s.lights), lightText(s.lights[i]));
+    out += entry(i, s.lights[i].name, widestName(s.lights), lightText(s.lights[i], s.origin));
   if (s.lights.size() > kShown)
     out += fmt::format("    … and {} more (--json has them all)\n", formatInteger(s.lights.size() - kShown));
   const auto& b = s.background;

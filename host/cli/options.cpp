@@ -16,6 +16,7 @@
 #include "gltf/loader.h"
 #include "image/image_io.h"
 #include "report/text.h"
+#include "scene/camera.h"
 #include "scene/input_error.h"
 
 namespace whittle::cli {
@@ -90,16 +91,22 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
              "add a sun, a fill light and a dim background to a file that has no lights but glows");
 }
 
-void addPictureOptions(CLI::App& c, Settings& s) {
+void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
   c.option_defaults()->group("Picture");
-  addWhole(c, "--width", s.width, 1, 65535, "PIXELS", "width of the picture");
-  addWhole(c, "--height", s.height, 1, 65535, "PIXELS", "height of the picture");
-  addText(c, "--camera", [&s](const std::string& v) { s.camera = v; },
-          {"NAME|INDEX", "camera of the scene", s.camera});
+  o.width = addWhole(c, "--width", s.width, 1, 65535, "PIXELS",
+                     "width of the picture; given alone, the height follows from the camera");
+  o.height = addWhole(c, "--height", s.height, 1, 65535, "PIXELS", "height of the picture, likewise");
+  CLI::Option* camera = addText(c, "--camera", [&s](const std::string& v) { s.camera = v; },
+                                {"NAME|INDEX", "camera of the scene, or the node that has it", s.camera});
+  addViewpointOptions(c, o.view, camera);
   addReal(c, "--exposure", s.exposure, -60, 60, "STOPS", "brightness of .png and .jpg", "0");
 
   c.option_defaults()->group("Light");
   addWhole(c, "--bounces", s.bounces, 1, 4096, "N", "backward tracing steps; 1 = direct light only");
+  addWhole(c, "--transparent-bounces", s.transparentBounces, 0, 4096, "N",
+           "surfaces that a ray may pass straight on, besides its bounces: blended or clear ones");
+  addChoice(c, "--back-faces", s.backFaces,
+            "backs of single-sided surfaces that light does not pass; shadow rays meet them in any case");
   addReal(c, "--cutoff", s.cutoff, 0, kLargestCutoff, "T",
           "trace no mirror or glass ray whose share of the picture (throughput) is at most this in every "
           "colour; --stats says what that can cost (biasBound beside meanRadiance)",
@@ -149,12 +156,37 @@ std::vector<std::string> uselessOptions(const Settings& settings) {
   return lines;
 }
 
-Scene loadScene(const SceneOptions& options, Notices& notices) {
+namespace {
+
+bool given(const CLI::Option* option) { return option && option->count() > 0; }
+
+/// The side of the picture that was not given.
+void settleSize(const SceneOptions& options, const Scene& scene, Settings& settings) {
+  if (given(options.width) == given(options.height)) return;
+  const Camera& camera = scene.cameras[findCamera(scene, settings.camera)];
+  const double aspect = camera.aspect > 0.0F ? static_cast<double>(camera.aspect) : kUsualAspect;
+  const auto side = [](double pixels) {
+    return static_cast<int>(std::clamp(std::round(pixels), 1.0, 65535.0));
+  };
+  if (given(options.width))
+    settings.height = side(settings.width / aspect);
+  else
+    settings.width = side(settings.height * aspect);
+}
+
+}  // namespace
+
+Scene loadScene(const SceneOptions& options, Settings& settings, Notices& notices) {
   LoadOptions load;
+  load.camera = settings.camera;
+  load.viewpoint = chosenViewpoint(options.view);
+  if (given(options.width) == given(options.height))
+    load.aspect = static_cast<double>(settings.width) / settings.height;
   if (!options.scene.empty()) load.sceneName = options.scene;
   load.defaultLights = options.defaultLights;
   load.defaultBackground = options.background.empty();
   Scene scene = loadGltf(options.file, load, notices);
+  settleSize(options, scene, settings);
   applyBackground(scene, options.background);
   for (const auto& text : notices.warnings) fmt::print(stderr, "warning: {}\n", text);
   if (!options.quiet)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/viewpoint.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -19,18 +20,21 @@ struct SceneOptions {
   std::string background;      ///< "R,G,B" or an equirectangular image; empty: as the file says
   bool defaultLights = false;  ///< also where emitters are all that gives light
   bool quiet = false;
+  ViewpointOptions view;
+  CLI::Option *width = nullptr, *height = nullptr;  ///< null where the command draws no picture
 };
 
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 /// Settings that change the picture, for render, reference and info.
-void addPictureOptions(CLI::App& command, Settings& settings);
+void addPictureOptions(CLI::App& command, Settings& settings, SceneOptions& scene);
 /// Settings of the device path alone.
 void addDeviceOptions(CLI::App& command, Settings& settings);
 
 /// A line for each option that changes nothing, with the reason.
 std::vector<std::string> uselessOptions(const Settings& settings);
 
-/// Loads, applies the background, prints notices to standard error (quiet: warnings only).
-Scene loadScene(const SceneOptions& options, Notices& notices);
+/// Loads, applies the background, prints notices to standard error (quiet: warnings only). Settles what the
+/// settings leave to the scene: one side of the picture where the other alone was given, and the camera.
+Scene loadScene(const SceneOptions& options, Settings& settings, Notices& notices);
 
 }  // namespace whittle::cli

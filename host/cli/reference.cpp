@@ -72,7 +72,7 @@ void writeResults(const ReferenceOptions& o, const Scene& scene, const Reference
 void runReference(ReferenceOptions& o) {
   checkOutputs(o);
   Notices notices;
-  const Scene scene = loadScene(o.scene, notices);
+  const Scene scene = loadScene(o.scene, o.settings, notices);
   ProgressBar bar(o.scene.quiet);
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {
@@ -112,7 +112,7 @@ void addReference(CLI::App& app, int& status) {
   addFile(*c, "--stats", o->stats, "FILE",
           "settings, ray counts and time as JSON; -: on standard output, instead of the summary");
   c->add_flag("--quiet", o->scene.quiet, "no progress, notes or summary");
-  addPictureOptions(*c, o->settings);
+  addPictureOptions(*c, o->settings, o->scene);
   c->footer("Example: whittle reference scene.glb -o right.exr --width 320 --height 180");
   c->callback([o, &status] {
     runReference(*o);

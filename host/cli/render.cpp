@@ -176,7 +176,7 @@ void runRender(RenderOptions& o) {
 
   Notices notices;
   notices.notes = uselessOptions(o.settings);
-  const Scene scene = loadScene(o.scene, notices);
+  const Scene scene = loadScene(o.scene, o.settings, notices);
   if (trace) trace->phase("load", start);
   const double load = since(start);
   RenderResult result = renderWithProgress(scene, o, reference, trace.get());
@@ -216,7 +216,7 @@ void addRender(CLI::App& app, int& status) {
           "every kernel launch as Chrome/Perfetto JSON; -: on standard output");
   c->add_flag("--quiet", o->scene.quiet,
               "no progress, notes or summary; warnings, errors and --profile only");
-  addPictureOptions(*c, o->settings);
+  addPictureOptions(*c, o->settings, o->scene);
   addErrorOptions(*c, o->settings);
   addFile(*c, "--reference", o->reference, "FILE",
           "measure the true RMSE against this .exr after each pass; the summary has the last, --stats all");

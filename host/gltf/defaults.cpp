@@ -6,78 +6,12 @@
 #include <vector>
 
 #include "gltf/loader.h"
+#include "scene/camera.h"
 #include "scene/material_predicates.h"
 
 namespace whittle {
 
 namespace {
-
-struct Box {
-  glm::dvec3 lo{-1.0};
-  glm::dvec3 hi{1.0};
-};
-
-/// Of the triangles, not of all vertices; a box of two metres around the origin where there are none.
-Box boundsOf(const Scene& scene) {
-  if (scene.triangles.empty()) return {};
-  const double inf = std::numeric_limits<double>::infinity();
-  Box box{glm::dvec3(inf), glm::dvec3(-inf)};
-  for (const Triangle& t : scene.triangles) {
-    for (const std::uint32_t v : {t.v0, t.v1, t.v2}) {
-      box.lo = glm::min(box.lo, glm::dvec3(scene.positions[v]));
-      box.hi = glm::max(box.hi, glm::dvec3(scene.positions[v]));
-    }
-  }
-  return box;
-}
-
-/// How steeply to look down on a box whose visible side is `width` by `height` and which is `depth` deep, in
-/// radians.
-double elevationFor(double width, double height, double depth) {
-  constexpr double kFlat = 1e-3;
-  if (depth <= kFlat * std::max(width, height)) return 0.0;  // a picture: front on
-  if (height <= kFlat * std::max(width, depth)) return 1.2;  // a floor
-  if (height < 0.2 * std::min(width, depth)) return 0.6;     // a landscape
-  return 0.3;
-}
-
-Camera framingCamera(const Scene& scene) {
-  constexpr double kYfov = 0.7;
-  constexpr double kAspect = 16.0 / 9.0;
-  constexpr double kMargin = 1.1;  // of the half picture, between the box and its edge
-  const Box box = boundsOf(scene);
-  const glm::dvec3 centre = 0.5 * (box.lo + box.hi);
-  const glm::dvec3 half = 0.5 * (box.hi - box.lo);
-
-  const bool facesX = half.z > half.x;
-  const double width = facesX ? half.z : half.x;
-  const double depth = facesX ? half.x : half.z;
-  const double elevation = elevationFor(width, half.y, depth);
-  const glm::dvec3 aside = facesX ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-  const glm::dvec3 toEye = aside * std::cos(elevation) + glm::dvec3(0, 1, 0) * std::sin(elevation);
-  const glm::dvec3 forward = -toEye;
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
-  const glm::dvec3 up = glm::cross(right, forward);
-
-  // The nearest distance from which every corner of the box lies inside the picture.
-  const double tanY = std::tan(0.5 * kYfov) / kMargin;
-  double distance = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
-    const glm::dvec3 c = half * sign;
-    const double needed =
-        std::max(std::abs(glm::dot(c, up)) / tanY, std::abs(glm::dot(c, right)) / (tanY * kAspect));
-    distance = std::max(distance, needed - glm::dot(c, forward));
-  }
-  Camera camera;
-  camera.name = "default";
-  camera.position = glm::vec3(centre + toEye * distance);
-  camera.forward = glm::vec3(forward);
-  camera.right = glm::vec3(right);
-  camera.up = glm::vec3(up);
-  camera.yfov = static_cast<float>(kYfov);
-  return camera;
-}
 
 bool hasEmitters(const Scene& scene) {
   std::vector<bool> used(scene.materials.size());
@@ -109,8 +43,11 @@ Light directional(const char* name, const glm::vec3& direction, const glm::vec3&
 }  // namespace
 
 void addDefaults(Scene& scene, Notices& notices, const LoadOptions& options) {
-  if (scene.cameras.empty()) {
-    scene.cameras.push_back(framingCamera(scene));
+  const double aspect = options.aspect > 0.0 ? options.aspect : kUsualAspect;
+  if (options.viewpoint) {
+    scene.cameras = {cameraAt(scene, *options.viewpoint, aspect)};
+  } else if (scene.cameras.empty()) {
+    scene.cameras.push_back(framingCamera(scene, aspect));
     notices.note("no camera in the file: one was added that frames the scene");
   }
   const bool isBlack = scene.background.map.empty() && scene.background.radiance == glm::vec3(0.0F);
@@ -126,7 +63,7 @@ void addDefaults(Scene& scene, Notices& notices, const LoadOptions& options) {
           "sun");
     return;
   }
-  const Camera& eye = scene.cameras.front();
+  const Camera& eye = scene.cameras[findCamera(scene, options.camera)];
   // The sun stands behind the camera, to the left and above; the fill light to the right, where the sun casts
   // shadows.
   const glm::vec3 fromSun = eye.forward * 0.7F + eye.right * 0.5F - eye.up * 0.8F;

@@ -37,13 +37,24 @@ bool placeCamera(const glm::dmat4& toWorld, Camera& camera) {
   return true;
 }
 
+/// What a file does not say is 0, and so is what makes no sense: then there is no frame and no plane.
+void setFrame(double aspect, double znear, double zfar, Camera& camera) {
+  constexpr double kMostAspect = 1e3;
+  if (aspect > 1 / kMostAspect && aspect < kMostAspect) camera.aspect = static_cast<float>(aspect);
+  if (znear > 0.0 && znear < 1e30) camera.znear = static_cast<float>(znear);
+  if (zfar > znear && zfar < 1e30) camera.zfar = static_cast<float>(zfar);
+}
+
 /// False if the lens cannot be used.
 bool readLens(const tinygltf::Camera& lens, Camera& camera) {
   camera.orthographic = lens.type == "orthographic";
   if (camera.orthographic) {
     camera.ymag = static_cast<float>(std::abs(lens.orthographic.ymag));
+    setFrame(std::abs(lens.orthographic.xmag) / static_cast<double>(camera.ymag), lens.orthographic.znear,
+             lens.orthographic.zfar, camera);
     return camera.ymag > 0.0F && std::isfinite(camera.ymag);
   }
+  setFrame(lens.perspective.aspectRatio, lens.perspective.znear, lens.perspective.zfar, camera);
   camera.yfov = static_cast<float>(lens.perspective.yfov);
   return camera.yfov > 0.0F && lens.perspective.yfov < std::numbers::pi;
 }
@@ -123,7 +134,8 @@ void readCameras(const Document& document, const Hierarchy& hierarchy, Scene& sc
                       nodeLabel(document, node)));
       continue;
     }
-    camera.name = lens.name.empty() ? document.model.nodes[at(node)].name : lens.name;
+    camera.node = document.model.nodes[at(node)].name;
+    camera.name = lens.name.empty() ? camera.node : lens.name;
     found.emplace_back(index, std::move(camera));
   }
   std::stable_sort(found.begin(), found.end(),

@@ -135,6 +135,7 @@ void readBackground(const Document& document, int sceneIndex, Scene& scene, Noti
 
 void load(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
   const Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
+  scene.origin = hierarchy.origin;
   std::vector<int> materials = readMaterials(document, usedMaterials(document, hierarchy), scene, notices);
   MeshLoader(document, hierarchy, std::move(materials), scene, notices).addAll();
   readCameras(document, hierarchy, scene, notices);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "scene/camera.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 
@@ -14,6 +15,10 @@ struct LoadOptions {
   std::optional<std::string> sceneName;  ///< name or index; default: the file's default scene, else the first
   bool defaultLights = false;            ///< add the default lights to a file that has emitters but no lights
   bool defaultBackground = true;         ///< with the default lights, add a dim background too
+  std::string camera = "0";              ///< which one lights are added for; see findCamera
+  std::optional<Viewpoint> viewpoint = {};  ///< a camera by hand, in the place of the file's
+  /// Width over height of the picture that an added camera frames the scene for; 0: 16:9.
+  double aspect = 0.0;
 };
 
 /// Reads `path`. Throws InputError with one line if it cannot be used; says in `notices` what was ignored or

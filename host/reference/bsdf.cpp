@@ -60,8 +60,8 @@ Vec3 spreadingBsdf(const Surfel& s, const Vec3& w_i, const Vec3& w_o) {
 Impulses impulsesOf(const Surfel& s, const Vec3& w_o) {
   const double cosine = std::min(1.0, glm::dot(s.n, w_o));
   const Vec3 dielectric = s.fresnel.reflectance(cosine, s.eta);
-  Impulse straight{-w_o, Vec3(1 - s.alpha), true};
-  Impulse transmission{-w_o, Vec3(0), true};
+  Impulse straight{-w_o, Vec3(1 - s.alpha), true, true};
+  Impulse transmission{-w_o, Vec3(0), true, !s.volume || s.eta == 1};
   Impulse reflection{w_o, Vec3(0), false};
 
   const auto beyond = s.transmission > 0 && !s.unlit ? transmittedDirection(s, w_o) : std::nullopt;

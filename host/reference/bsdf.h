@@ -13,9 +13,10 @@ Vec3 spreadingBsdf(const Surfel& surfel, const Vec3& w_i, const Vec3& w_o);
 
 /// The delta part of the BSDF: all light goes one way.
 struct Impulse {
-  Vec3 w_i;        ///< unit, from the surface
-  Vec3 magnitude;  ///< RGB factor
-  bool through;    ///< leaves on the side that the viewer is not on
+  Vec3 w_i;               ///< unit, from the surface
+  Vec3 magnitude;         ///< RGB factor
+  bool through;           ///< leaves on the side that the viewer is not on
+  bool straight = false;  ///< goes on the way the light came, as though nothing were there
 };
 
 /// At most two, none of them dark.

@@ -1,13 +1,10 @@
-// Which camera, and its eye rays.
+// Eye rays.
 #pragma once
 
 #include "reference/triangle_test.h"
 #include "scene/scene.h"
 
 namespace whittle::reference {
-
-/// The camera called `nameOrIndex`; a name goes before an index. Throws InputError that lists the cameras.
-const Camera& findCamera(const Scene& scene, const std::string& nameOrIndex);
 
 /// The ray through (x, y) in pixels, row 0 at the top, of a picture of width × height pixels.
 Ray eyeRay(const Camera& camera, const Vec2& position, int width, int height);

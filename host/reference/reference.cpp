@@ -11,6 +11,7 @@
 
 #include "reference/camera.h"
 #include "reference/trace.h"
+#include "scene/camera.h"
 
 namespace whittle {
 namespace {
@@ -40,7 +41,7 @@ void traceRow(const reference::World& world, int y, ReferenceResult& result, Row
 
 ReferenceResult render(const Scene& scene, const Settings& settings,
                        const std::function<void(int, int)>& progress) {
-  const Camera& camera = reference::findCamera(scene, settings.camera);
+  const Camera& camera = scene.cameras[findCamera(scene, settings.camera)];
   const reference::TriangleIndex triangles(scene);
   const reference::World world{scene, settings, triangles, camera};
 

@@ -39,13 +39,24 @@ Vec3 directLight(const World& world, const Sample& sample, const Surfel& surfel,
   return sum;
 }
 
-Vec3 impulseLight(const World& world, const Sample& sample, const Surfel& surfel, const Vec3& w_o, int depth,
-                  const Vec3& throughput) {
-  Impulses impulses = impulsesOf(surfel, w_o);
+/// Impulses have a limit, what goes straight on another. Surfaces that do both would make thousands of rays
+/// of one: after as many of them as there are bounces, impulses that carry little are not followed.
+bool isFollowed(const Settings& settings, const Impulse& impulse, const Step& step, const Vec3& share) {
+  constexpr double kLittle = 1.0 / 64;
+  if (impulse.straight) return step.passed < settings.transparentBounces;
+  const bool hasBranched = step.bounce + step.branched >= settings.bounces;
+  return step.bounce < settings.bounces && !(hasBranched && maxComponent(share) < kLittle);
+}
+
+Vec3 impulseLight(const World& world, const Sample& sample, const Ray& arrived, const Hit& hit,
+                  const Surfel& surfel, const Step& step, const Vec3& throughput) {
+  Impulses impulses = impulsesOf(surfel, -arrived.direction);
   if (world.settings.impulses == ImpulseMode::One) {
-    impulses = chooseOne(
-        impulses, unit(hash(sample.pixel, sample.index, kImpulseDimension + depth, world.settings.seed)));
+    const auto dimension = static_cast<std::uint32_t>(kImpulseDimension + step.bounce + step.passed);
+    impulses = chooseOne(impulses, unit(hash(sample.pixel, sample.index, dimension, world.settings.seed)));
   }
+  const bool branches = impulses.count == 2 && (impulses.items[0].straight || impulses.items[1].straight);
+  const Step passing{step.bounce, step.passed + 1, std::min(step.branched + (branches ? 1 : 0), 63), hit};
   Vec3 sum(0);
   for (const Impulse& impulse : impulses.all()) {
     const Vec3 share = throughput * impulse.magnitude;
@@ -53,24 +64,67 @@ Vec3 impulseLight(const World& world, const Sample& sample, const Surfel& surfel
       if (!isDark(share)) sum += share;  // NaN: not traced, but the sample counts as not finite
       continue;
     }
+    if (!isFollowed(world.settings, impulse, step, share)) continue;
     if (glm::all(glm::lessThanEqual(share, Vec3(world.settings.cutoff)))) {
       sample.rays.cutOff += maxComponent(share);
       continue;
     }
     ++sample.rays.impulse;
+    if (impulse.straight) {
+      sum += impulse.magnitude * Li(world, sample, arrived, passing, share);
+      continue;
+    }
     const double side = impulse.through ? -1 : 1;
     const Ray ray{surfel.position + side * surfel.rayOffset * surfel.facing, impulse.w_i};
-    sum += impulse.magnitude * Li(world, sample, ray, depth + 1, share);
+    sum += impulse.magnitude * Li(world, sample, ray, {step.bounce + 1, step.passed, step.branched}, share);
   }
   return sum;
+}
+
+/// What a hit's place in the order is. A blended surface comes a little earlier than it lies, so that a decal
+/// shows that lies exactly in the plane of a wall.
+double orderOf(const World& world, const Hit& hit) {
+  const Triangle& triangle = world.scene.triangles[hit.triangle];
+  const bool coats = world.scene.materials[triangle.material].alphaMode == AlphaMode::Blend;
+  return coats ? hit.t * (1 - 0x1p-20) : hit.t;
+}
+
+bool isBefore(const World& world, const Hit& a, const Hit& b) {
+  const double first = orderOf(world, a), second = orderOf(world, b);
+  return first < second || (first == second && a.triangle < b.triangle);
+}
+
+/// What lets light through takes its share of it once, even where a ray meets the edge of two triangles.
+bool dimsHere(const World& world, const Ray& ray, const Hit& hit) {
+  const Material& m = world.scene.materials[world.scene.triangles[hit.triangle].material];
+  const bool filters = m.alphaMode == AlphaMode::Blend || (m.transmission > 0 && !m.unlit);
+  if (!filters || (hit.barycentric.x != 0 && hit.barycentric.y != 0 && hit.barycentric.z != 0)) return true;
+  return ownsHit(ShearedRay(ray), world.triangles.corners(hit.triangle));
+}
+
+/// Whether eye and impulse rays see this side of the triangle.
+bool showsSide(const World& world, const Ray& ray, const Hit& hit) {
+  const Material& m = world.scene.materials[world.scene.triangles[hit.triangle].material];
+  const bool lightPasses = m.volume || (m.transmission > 0 && !m.unlit);
+  if (m.doubleSided || lightPasses || world.settings.backFaces == BackFaces::Show) return true;
+  const auto [p0, p1, p2] = world.triangles.corners(hit.triangle);
+  return glm::dot(glm::cross(p1 - p0, p2 - p0), ray.direction) < 0;
 }
 
 bool isFiniteInSinglePrecision(const Vec3& v) { return isFinite(Vec3(glm::vec3(v))); }
 
 }  // namespace
 
-std::optional<Hit> nearestSurface(const World& world, const Ray& ray) {
-  return world.triangles.nearestHit(ray, [&](const Hit& hit) { return passesMask(world.scene, hit); });
+std::optional<Hit> nearestSurface(const World& world, const Ray& ray, const std::optional<Hit>& after) {
+  constexpr double kCoats = 1 + 0x1p-19;  // what comes before a hit lies before this much of its distance
+  std::optional<Hit> best;
+  world.triangles.visitHits(ray, std::numeric_limits<double>::infinity(), [&](const Hit& hit) {
+    if ((!after || isBefore(world, *after, hit)) && (!best || isBefore(world, hit, *best)) &&
+        showsSide(world, ray, hit) && passesMask(world.scene, hit) && dimsHere(world, ray, hit))
+      best = hit;
+    return best ? best->t * kCoats : std::numeric_limits<double>::infinity();
+  });
+  return best;
 }
 
 Vec3 visibility(const World& world, const Surfel& surfel, const Vec3& w_i, double distance) {
@@ -82,7 +136,7 @@ Vec3 visibility(const World& world, const Surfel& surfel, const Vec3& w_i, doubl
   constexpr std::int64_t kBlocked = 1 << 20;
   std::array<std::int64_t, 3> opacity{};
   world.triangles.visitHits(ray, length, [&](const Hit& hit) {
-    if (!(hit.t < length)) return length;
+    if (!(hit.t < length) || !dimsHere(world, ray, hit)) return length;
     const Vec3 kept = shadowTransmittance(world.scene, world.triangles, ray, hit);
     bool blocked = true;
     for (int i = 0; i < 3; ++i) {
@@ -98,22 +152,17 @@ Vec3 visibility(const World& world, const Surfel& surfel, const Vec3& w_i, doubl
   return kept;
 }
 
-Vec3 Li(const World& world, const Sample& sample, const Ray& ray, int depth, const Vec3& throughput,
+Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& step, const Vec3& throughput,
         std::optional<Hit>* seen) {
-  const std::optional<Hit> hit = nearestSurface(world, ray);
+  const std::optional<Hit> hit = nearestSurface(world, ray, step.after);
   if (seen) *seen = hit;
   if (!hit) return backgroundRadiance(world.scene.background, ray.direction);
   const Surfel surfel = makeSurfel(world.scene, world.settings, world.triangles, ray, *hit);
-  const Vec3 kept = absorption(surfel, hit->t);
-  return kept * Lo(world, sample, surfel, -ray.direction, depth, throughput * kept);
-}
-
-Vec3 Lo(const World& world, const Sample& sample, const Surfel& surfel, const Vec3& w_o, int depth,
-        const Vec3& throughput) {
+  const Vec3 kept = absorption(surfel, hit->t - (step.after ? step.after->t : 0));
   Vec3 radiance = surfel.alpha * (surfel.unlit ? surfel.baseColor : surfel.emission);
-  if (!surfel.unlit) radiance += directLight(world, sample, surfel, w_o);
-  if (depth < world.settings.bounces) radiance += impulseLight(world, sample, surfel, w_o, depth, throughput);
-  return radiance;
+  if (!surfel.unlit) radiance += directLight(world, sample, surfel, -ray.direction);
+  radiance += impulseLight(world, sample, ray, *hit, surfel, step, throughput * kept);
+  return kept * radiance;
 }
 
 PixelResult traceOnePixel(const World& world, int x, int y, RayCounts& rays) {
@@ -125,7 +174,7 @@ PixelResult traceOnePixel(const World& world, int x, int y, RayCounts& rays) {
     const Vec2 position = Vec2(x, y) + samplePosition(settings.sampler, pixel, s, count, settings.seed);
     const Ray ray = eyeRay(world.camera, position, settings.width, settings.height);
     ++rays.primary;
-    const Vec3 radiance = Li(world, {pixel, s, rays}, ray, 1, Vec3(1), s == 0 ? &result.seen : nullptr);
+    const Vec3 radiance = Li(world, {pixel, s, rays}, ray, {}, Vec3(1), s == 0 ? &result.seen : nullptr);
     if (isFiniteInSinglePrecision(radiance)) {
       result.radiance += radiance;
     } else {

@@ -24,18 +24,24 @@ struct Sample {
   RayCounts& rays;
 };
 
-/// The nearest surface that alpha masks leave standing.
-std::optional<Hit> nearestSurface(const World& world, const Ray& ray);
+/// Where on its way a ray is: `bounce` 1 for eye rays; `passed` surfaces went by straight on, the last of
+/// them at `after`; `branched` of them, up to 63, sent out an impulse too.
+struct Step {
+  int bounce = 1;
+  int passed = 0;
+  int branched = 0;
+  std::optional<Hit> after = {};
+};
 
-/// Radiance, W/(m² sr), that arrives at the origin of `ray` from its direction. depth: 1 for eye rays.
+/// The first surface after `after`, in the order of README.md, that alpha masks and back faces leave
+/// standing.
+std::optional<Hit> nearestSurface(const World& world, const Ray& ray, const std::optional<Hit>& after = {});
+
+/// Radiance, W/(m² sr), that arrives at the origin of `ray` from its direction.
 /// throughput: the share of it that reaches the eye, so that rays that cannot matter are left out.
 /// `seen`, if given, receives the hit.
-Vec3 Li(const World& world, const Sample& sample, const Ray& ray, int depth, const Vec3& throughput,
+Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& step, const Vec3& throughput,
         std::optional<Hit>* seen = nullptr);
-
-/// Radiance that leaves the surfel towards w_o.
-Vec3 Lo(const World& world, const Sample& sample, const Surfel& surfel, const Vec3& w_o, int depth,
-        const Vec3& throughput);
 
 /// The share, per channel, of the light from w_i at `distance` metres that is not blocked.
 Vec3 visibility(const World& world, const Surfel& surfel, const Vec3& w_i, double distance);

@@ -16,6 +16,23 @@ double differenceOfProducts(double a, double b, double c, double d) {
   return std::fma(a, b, -cd) + error;
 }
 
+/// The corners where the ray runs along +z from the origin.
+std::array<Vec3, 3> sheared(const ShearedRay& ray, const std::array<Vec3, 3>& corners) {
+  std::array<Vec3, 3> c;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 p = corners[i] - ray.origin;
+    c[i] = Vec3(p[ray.kx] - ray.shear.x * p[ray.kz], p[ray.ky] - ray.shear.y * p[ray.kz],
+                ray.shear.z * p[ray.kz]);
+  }
+  return c;
+}
+
+/// Twice the area that the ray spans with the edge across from corner i.
+double acrossEdge(const std::array<Vec3, 3>& c, int i) {
+  const Vec3 &p = c[(i + 2) % 3], &q = c[(i + 1) % 3];
+  return differenceOfProducts(p.x, q.y, p.y, q.x);
+}
+
 }  // namespace
 
 ShearedRay::ShearedRay(const Ray& ray) : origin(ray.origin) {
@@ -27,16 +44,22 @@ ShearedRay::ShearedRay(const Ray& ray) : origin(ray.origin) {
   shear = Vec3(ray.direction[kx], ray.direction[ky], 1.0) / ray.direction[kz];
 }
 
-std::optional<TriangleHit> intersect(const ShearedRay& ray, const std::array<Vec3, 3>& corners) {
-  Vec3 c[3];  // the corners where the ray runs along +z from the origin
+bool ownsHit(const ShearedRay& ray, const std::array<Vec3, 3>& corners) {
+  const auto c = sheared(ray, corners);
+  double area = 0;
+  for (int i = 0; i < 3; ++i) area += acrossEdge(c, i);
   for (int i = 0; i < 3; ++i) {
-    const Vec3 p = corners[i] - ray.origin;
-    c[i] = Vec3(p[ray.kx] - ray.shear.x * p[ray.kz], p[ray.ky] - ray.shear.y * p[ray.kz],
-                ray.shear.z * p[ray.kz]);
+    if (acrossEdge(c, i) != 0) continue;
+    const Vec3 &p = c[(i + 2) % 3], &q = c[(i + 1) % 3];
+    const double side = p.y != q.y ? p.y - q.y : q.x - p.x;  // of a ray moved by (e, e²)
+    if ((side > 0) != (area > 0)) return false;
   }
-  const double u = differenceOfProducts(c[2].x, c[1].y, c[2].y, c[1].x);
-  const double v = differenceOfProducts(c[0].x, c[2].y, c[0].y, c[2].x);
-  const double w = differenceOfProducts(c[1].x, c[0].y, c[1].y, c[0].x);
+  return true;
+}
+
+std::optional<TriangleHit> intersect(const ShearedRay& ray, const std::array<Vec3, 3>& corners) {
+  const auto c = sheared(ray, corners);
+  const double u = acrossEdge(c, 0), v = acrossEdge(c, 1), w = acrossEdge(c, 2);
   if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return std::nullopt;
   const double det = u + v + w;
   if (det == 0) return std::nullopt;

@@ -29,6 +29,10 @@ struct TriangleHit {
   Vec3 barycentric;  ///< weights of the three corners, sum 1
 };
 
+/// Of the triangles that meet in an edge or corner, all are hit there. Whether the hit belongs to this one:
+/// to whichever a ray a tiny way beside would meet, so that light that passes several is dimmed once.
+bool ownsHit(const ShearedRay& ray, const std::array<Vec3, 3>& corners);
+
 /// Both sides are hit; edges and corners belong to every triangle that has them. Zero area: no hit.
 std::optional<TriangleHit> intersect(const ShearedRay& ray, const std::array<Vec3, 3>& corners);
 

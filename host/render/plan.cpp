@@ -45,7 +45,8 @@ RenderPlan planRender(const Scene& scene, const Settings& settings) {
   picture.report(plan.buffers);
   plan.everythingBytes = picture.order.bytes + picture.film.bytes + picture.aovs.bytes +
                          bytesOfEverything(compute, scene, settings, decisions, tree);
-  plan.stages = plannedStages({decisions.features, memory.scene.lightCount, settings.bounces});
+  plan.stages =
+      plannedStages({decisions.features, memory.scene.lightCount, mostHits(decisions.features, settings)});
   plan.device = compute.device();
   plan.settings = settingsInEffect(settings, decisions, memory.queues);
   plan.features = std::move(decisions.features);

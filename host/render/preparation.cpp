@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cl/device.h"
+#include "scene/camera.h"
 #include "scene/input_error.h"
 #include "wavefront/camera_to_device.h"
 #include "wavefront/film.h"
@@ -19,6 +20,7 @@ void checkSettings(const Settings& s) {
     throw InputError(
         fmt::format("--width/--height: {}×{} is not between 1×1 and 65535×65535", s.width, s.height));
   if (s.bounces < 1) throw InputError("--bounces: at least 1");
+  if (s.transparentBounces < 0) throw InputError("--transparent-bounces: at least 0");
   if (!(s.cutoff >= 0.0F && s.cutoff <= kLargestCutoff))
     throw InputError(fmt::format("--cutoff: not from 0 to {}", kLargestCutoff));
   if (s.raysPerPixel < 1) throw InputError("--rays-per-pixel: at least 1");

@@ -11,6 +11,7 @@
 #include "render/phase_log.h"
 #include "render/preparation.h"
 #include "render/sampling_loop.h"
+#include "scene/camera.h"
 #include "wavefront/camera_to_device.h"
 #include "wavefront/film.h"
 #include "wavefront/wavefront.h"
@@ -31,7 +32,8 @@ struct Compiled {
 
 Compiled compileKernels(OpenDevice& device, const Settings& settings, const Decisions& decisions,
                         const RenderHooks& hooks, Clock::time_point start) {
-  const auto stages = plannedStages({decisions.features, decisions.pruned.lights.size(), settings.bounces});
+  const auto stages = plannedStages(
+      {decisions.features, decisions.pruned.lights.size(), mostHits(decisions.features, settings)});
   const CompileTarget target{decisions.compactChunk, decisions.workGroup, settings.relaxedArithmetic};
   CompileBeside beside;
   if (!hooks.compiler.empty())
@@ -53,7 +55,8 @@ device::RenderConstants constantsToDevice(const Scene& scene, const Settings& s)
           .backgroundHeight = scene.background.height,
           .mirrorRoughness = s.mirrorRoughness,
           .seed = s.seed,
-          .cutoff = s.cutoff};
+          .cutoff = s.cutoff,
+          .transparentBounces = static_cast<std::uint32_t>(s.transparentBounces)};
 }
 
 std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& settings,
@@ -152,6 +155,7 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
                              cameraToDevice(scene.cameras[decisions.camera], settings),
                              constantsToDevice(scene, settings),
                              static_cast<std::uint32_t>(settings.bounces),
+                             static_cast<std::uint32_t>(mostHits(decisions.features, settings)),
                              decisions.compactChunk};
   Wavefront wavefront(compute, stages, memory.queues, setup, picture.film, picture.aovs);
   SamplingLoop loop(

@@ -38,7 +38,7 @@ SamplingLoop::SamplingLoop(Compute& compute, Wavefront& wavefront, const Setting
       hooks_(hooks),
       buffers_(buffers),
       counts_(buffers.orderTable.size()),
-      cutOffShares_(static_cast<std::size_t>(settings.bounces), 0.0) {}
+      cutOffShares_(wavefront.tally().cutOff.size(), 0.0) {}
 
 bool SamplingLoop::looks() const {
   return settings_.timeLimit > 0.0 || hasErrorTarget(settings_) || settings_.adaptive || hooks_.reference;

@@ -36,6 +36,12 @@ inline bool refracts(const Material& m) { return transmits(m) && m.volume; }
 inline bool absorbs(const Material& m) { return m.volume && m.sigma_a != glm::vec3(0.0F); }
 inline bool isMasked(const Material& m) { return m.alphaMode == AlphaMode::Mask; }
 inline bool blends(const Material& m) { return m.alphaMode == AlphaMode::Blend; }
+/// Lets light go on the way it came: a ray that meets it goes on without a bounce.
+inline bool goesStraightOn(const Material& m) {
+  return blends(m) || (transmits(m) && (!m.volume || m.ior == 1.0F));
+}
+/// Eye and impulse rays do not meet its back (glTF 2.0, 3.9.5); what light passes has two sides.
+inline bool showsFrontOnly(const Material& m) { return !m.doubleSided && !m.volume && !transmits(m); }
 /// Lets a part of the light of a shadow ray through.
 inline bool filters(const Material& m) { return blends(m) || transmits(m); }
 

@@ -137,8 +137,12 @@ struct Camera {
   glm::vec3 right{1, 0, 0};
   glm::vec3 up{0, 1, 0};
   glm::vec3 forward{0, 0, -1};
-  float yfov = 0.9F;  ///< perspective: full vertical field of view in radians
-  float ymag = 1.0F;  ///< orthographic: half the visible height in metres
+  float yfov = 0.9F;    ///< perspective: full vertical field of view in radians
+  float ymag = 1.0F;    ///< orthographic: half the visible height in metres
+  float aspect = 0.0F;  ///< width over height of the frame that it shows in any case; 0: it has none
+  float znear = 0.0F;   ///< metres along `forward`: eye rays begin there
+  float zfar = std::numeric_limits<float>::infinity();  ///< and end there, where that is asked for
+  std::string node = {};                                ///< that it hangs on; a name as good as its own
 };
 
 /// Radiance seen by rays that leave the scene, W/(m² sr).
@@ -165,6 +169,9 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Camera> cameras;  ///< never empty after loading
   Background background;
+  /// Where the scene's coordinates begin, in those of the file, metres: 0 but for scenes far from there,
+  /// which single precision would shake. Whoever shows coordinates adds it.
+  glm::dvec3 origin{0.0};
   std::uint64_t droppedTriangles = 0;  ///< not finite, or |coordinate| > 1.8e18, or a repeated position
 };
 

@@ -12,6 +12,7 @@ enum class Search : std::uint8_t { Auto, Tree, Array };
 enum class Sampler : std::uint8_t { Random, Stratified, Sobol };
 enum class ImpulseMode : std::uint8_t { All, One };
 enum class Lanes : std::uint8_t { Auto, One, Sixteen };
+enum class BackFaces : std::uint8_t { Cull, Show };
 
 /// What a value is called on the command line and in the statistics.
 template <typename T>
@@ -25,16 +26,21 @@ inline constexpr Word<Sampler> kSamplerWords[]{
     {"random", Sampler::Random}, {"stratified", Sampler::Stratified}, {"sobol", Sampler::Sobol}};
 inline constexpr Word<ImpulseMode> kImpulseWords[]{{"all", ImpulseMode::All}, {"one", ImpulseMode::One}};
 inline constexpr Word<Lanes> kLanesWords[]{{"auto", Lanes::Auto}, {"1", Lanes::One}, {"16", Lanes::Sixteen}};
+inline constexpr Word<BackFaces> kBackFacesWords[]{{"cull", BackFaces::Cull}, {"show", BackFaces::Show}};
+constexpr const auto& wordsOf(BackFaces) { return kBackFacesWords; }
 constexpr const auto& wordsOf(Search) { return kSearchWords; }
 constexpr const auto& wordsOf(Sampler) { return kSamplerWords; }
 constexpr const auto& wordsOf(ImpulseMode) { return kImpulseWords; }
 constexpr const auto& wordsOf(Lanes) { return kLanesWords; }
 
 struct Settings {
-  int width = 640;           ///< pixels
-  int height = 360;          ///< pixels
-  std::string camera = "0";  ///< name or index
-  int bounces = 8;           ///< backward tracing steps; 1 = direct light only
+  int width = 640;              ///< pixels
+  int height = 360;             ///< pixels
+  std::string camera = "0";     ///< name or index
+  int bounces = 8;              ///< backward tracing steps; 1 = direct light only
+  int transparentBounces = 64;  ///< surfaces that a ray may pass straight on, besides its bounces
+  /// What eye and impulse rays make of the backs of single-sided surfaces that light does not pass.
+  BackFaces backFaces = BackFaces::Cull;
   float cutoff = 0.0F;   ///< no impulse of at most this throughput in every channel is traced; 0: none is cut
   int raysPerPixel = 1;  ///< 1 = through the pixel's centre
   bool shadows = true;
@@ -72,6 +78,8 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("camera", s.camera);
   visit("exposure", s.exposure);
   visit("bounces", s.bounces);
+  visit("transparentBounces", s.transparentBounces);
+  visit("backFaces", s.backFaces);
   visit("cutoff", s.cutoff);
   visit("raysPerPixel", s.raysPerPixel);
   visit("shadows", s.shadows);

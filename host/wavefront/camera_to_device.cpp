@@ -1,12 +1,7 @@
 // See camera_to_device.h.
 #include "wavefront/camera_to_device.h"
 
-#include <fmt/format.h>
-
-#include <charconv>
-#include <cmath>
-
-#include "scene/input_error.h"
+#include "scene/camera.h"
 
 namespace whittle {
 namespace {
@@ -27,8 +22,8 @@ device::DeviceCamera cameraToDevice(const Camera& camera, const Settings& s) {
   device::DeviceCamera d{};
   for (int i = 0; i < 3; ++i) d.position[i] = camera.position[i];
   for (int i = 0; i < 3; ++i) d.forward[i] = camera.forward[i];
-  const double half = camera.orthographic ? camera.ymag : std::tan(0.5 * static_cast<double>(camera.yfov));
-  const double step = half / s.height;  // pixels are square
+  const double step =
+      halfHeight(camera, static_cast<double>(s.width) / s.height) / s.height;  // square pixels
   split3(d.stepX, d.stepXLow, step * glm::dvec3(camera.right));
   split3(d.stepY, d.stepYLow, -step * glm::dvec3(camera.up));
   d.orthographic = camera.orthographic;
@@ -38,19 +33,6 @@ device::DeviceCamera cameraToDevice(const Camera& camera, const Settings& s) {
   d.raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel);
   d.sampler = static_cast<std::uint32_t>(s.sampler);
   return d;
-}
-
-std::size_t findCamera(const Scene& scene, const std::string& selector) {
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-    if (scene.cameras[i].name == selector) return i;
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(selector.data(), selector.data() + selector.size(), index);
-  if (error == std::errc{} && end == selector.data() + selector.size() && index < scene.cameras.size())
-    return index;
-  std::string names;
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-    names += fmt::format("{}{} '{}'", i ? ", " : "", i, scene.cameras[i].name);
-  throw InputError(fmt::format("--camera: {} has no camera '{}'; it has {}", scene.file, selector, names));
 }
 
 }  // namespace whittle

@@ -101,7 +101,8 @@ device::DeviceMaterial toDevice(const Material& m, TextureAtlas& atlas) {
 }
 
 std::uint32_t triangleFlags(const Material& m) {
-  return (isMasked(m) ? TRIANGLE_MASKED : 0U) | (filters(m) ? TRIANGLE_FILTERS : 0U);
+  return (isMasked(m) ? TRIANGLE_MASKED : 0U) | (filters(m) ? TRIANGLE_FILTERS : 0U) |
+         (blends(m) ? TRIANGLE_COATS : 0U) | (showsFrontOnly(m) ? TRIANGLE_ONE_SIDED : 0U);
 }
 
 /// False for corners on one line, by the differences that the kernels see; products of two floats are exact

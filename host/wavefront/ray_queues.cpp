@@ -15,6 +15,16 @@ bool asksForDistances(const SceneFeatures& features) {
   return features.has(Feature::TEXTURES) || features.has(Feature::ABSORPTION) || features.has(Feature::AOVS);
 }
 
+std::uint32_t rayPlanesFor(const SceneFeatures& features) {
+  if (features.has(Feature::STRAIGHT)) return RAY_PLANES_STRAIGHT;
+  return features.has(Feature::IMPULSES) ? RAY_PLANES : EYE_RAY_PLANES;
+}
+
+std::uint32_t hitPlanesFor(const SceneFeatures& features) {
+  if (features.has(Feature::STRAIGHT)) return HIT_PLANES_STRAIGHT;
+  return asksForDistances(features) ? HIT_PLANES : HIT_PLANES_WITHOUT_T;
+}
+
 }  // namespace
 
 RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity,
@@ -22,8 +32,8 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
     : compute_(compute),
       capacity_(capacity),
       segmentLimit_(features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity),
-      rayPlanes_(features.has(Feature::IMPULSES) ? RAY_PLANES : EYE_RAY_PLANES),
-      hitPlanes_(asksForDistances(features) ? HIT_PLANES : HIT_PLANES_WITHOUT_T) {
+      rayPlanes_(rayPlanesFor(features)),
+      hitPlanes_(hitPlanesFor(features)) {
   // A packet reads up to fifteen entries past its segment (into the next plane, or the padding) and ignores
   // them. It writes whole packets from entry 0, which stay inside a plane because the capacity is a multiple.
   assert(capacity % PACKET_RAYS == 0);

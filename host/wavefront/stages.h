@@ -116,7 +116,8 @@ struct Intersect {
   Global<const float> rays;
   Global<float> hits;
   Count hitPlanes = HIT_PLANES;
-  WHITTLE_ARGUMENTS(scene, first, count, capacity, rays, hits, hitPlanes)
+  Count continued = 0;  ///< 1: rays may have gone straight on
+  WHITTLE_ARGUMENTS(scene, first, count, capacity, rays, hits, hitPlanes, continued)
 
   Count items() const { return count; }
   Bytes bytes(const EntryBytes& e) const { return count * (kRay + e.hit); }
@@ -222,12 +223,12 @@ struct ShadeLight {
       [](const StageConditions& c) { return c.lights > 1; }};
   SceneArgument scene;
   device::RenderConstants constants{};
-  Count first = 0, count = 0, capacity = 0, light = 0;
+  Count first = 0, count = 0, capacity = 0, bounce = 0, light = 0;
   Global<const float> rays, hits;
   Global<float> entryRadiance, shadows;
   Global<EntryFlags> flags;
-  WHITTLE_ARGUMENTS(scene, constants, first, count, capacity, light, rays, hits, entryRadiance, shadows,
-                    flags)
+  WHITTLE_ARGUMENTS(scene, constants, first, count, capacity, bounce, light, rays, hits, entryRadiance,
+                    shadows, flags)
 
   Count items() const { return count; }
   /// Reads rays, hits, radiance and flags; writes the last two. Candidates come on top (Shade::bytesOf).
@@ -239,12 +240,12 @@ struct CompactImpulse {
       {"compact_impulse", "the next ray queue", "compact", "queues", "compact.cl", "entries", "impulses"},
       PerWorkItem::Chunk,
       [](const StageConditions& c) { return c.impulses(); }};
-  Count first = 0, count = 0, capacity = 0;
+  Count first = 0, count = 0, capacity = 0, bounce = 0;
   Global<const EntryFlags> flags;
   Global<const Count> offsets;
-  Global<const float> impulses, rays;
+  Global<const float> impulses, rays, hits;
   Global<float> next;
-  WHITTLE_ARGUMENTS(first, count, capacity, flags, offsets, impulses, rays, next)
+  WHITTLE_ARGUMENTS(first, count, capacity, bounce, flags, offsets, impulses, rays, hits, next)
 
   Count items() const { return count; }
   Bytes bytes(const EntryBytes& e) const { return count * e.flags; }

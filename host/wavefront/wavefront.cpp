@@ -13,7 +13,7 @@ Wavefront::Wavefront(Compute& compute, StageRunner& stages, RayQueues& queues, c
     : compute_(compute), stages_(stages), queues_(queues), setup_(setup), film_(film), aovs_(aovs) {
   counters_ = compute_.allocate("counters", COUNTERS * sizeof(std::uint32_t));
   compute_.fillZero(counters_);
-  tally_.cutOff.resize(setup_.bounces);
+  tally_.cutOff.resize(setup_.rounds);
 }
 
 std::uint32_t Wavefront::trace(const TracePass& pass, const KeepGoing& keepGoing) {
@@ -95,20 +95,20 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
   // receive is what their samples have so far.
   assert(bounce > 1 || segment.begin == 0);
   radiance_ = bounce == 1 ? &queues_.sampleRadiance : &queues_.entryRadiance;
-  intersect(queue, segment);
+  intersect(queue, segment, bounce);
   shade(queue, segment, bounce);
   const Candidates found = countCandidates(segment);
   stages_.addBytes<stages::Shade>(stages::Shade::bytesOf(found.shadow, found.impulse));
   tally_.cutOff[bounce - 1] += found.cutOff;
   occlude(compactShadow(segment, found.shadow));
   for (std::uint32_t light = 1; light < setup_.scene.lightCount; ++light) {
-    shadeLight(queue, segment, light);
+    shadeLight(queue, segment, bounce, light);
     const Candidates lit = countCandidates(segment);
     stages_.addBytes<stages::ShadeLight>(stages::Shade::bytesOf(lit.shadow, 0));
     occlude(compactShadow(segment, lit.shadow));
   }
   if (bounce > 1) accumulate(queue, segment);
-  return bounce < setup_.bounces ? compactImpulse(queue, segment, found.impulse, next) : 0;
+  return bounce < setup_.rounds ? compactImpulse(queue, segment, bounce, found.impulse, next) : 0;
 }
 
 void Wavefront::raygen(const Buffer& queue, std::uint32_t count) {
@@ -122,14 +122,15 @@ void Wavefront::raygen(const Buffer& queue, std::uint32_t count) {
   tally_.produced += count;
 }
 
-void Wavefront::intersect(const Buffer& queue, Segment segment) {
+void Wavefront::intersect(const Buffer& queue, Segment segment, std::uint32_t bounce) {
   stages_.run(stages::Intersect{.scene = setup_.scene,
                                 .first = segment.begin,
                                 .count = segment.count(),
                                 .capacity = queues_.capacity(),
                                 .rays = queue,
                                 .hits = queues_.hits,
-                                .hitPlanes = queues_.hitPlanes()});
+                                .hitPlanes = queues_.hitPlanes(),
+                                .continued = bounce > 1});
 }
 
 void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce) {
@@ -154,12 +155,13 @@ void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce
   tally_.finished += segment.count();
 }
 
-void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t light) {
+void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t bounce, std::uint32_t light) {
   stages_.run(stages::ShadeLight{.scene = setup_.scene,
                                  .constants = setup_.constants,
                                  .first = segment.begin,
                                  .count = segment.count(),
                                  .capacity = queues_.capacity(),
+                                 .bounce = bounce,
                                  .light = light,
                                  .rays = queue,
                                  .hits = queues_.hits,
@@ -202,18 +204,20 @@ void Wavefront::occlude(std::uint32_t count) {
                               .entryRadiance = *radiance_});
 }
 
-std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, std::uint32_t found,
-                                        Buffer& next) {
+std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, std::uint32_t bounce,
+                                        std::uint32_t found, Buffer& next) {
   if (found == 0) return 0;
   assert(found <= queues_.capacity());
   next = queues_.acquire();
   stages_.run(stages::CompactImpulse{.first = segment.begin,
                                      .count = segment.count(),
                                      .capacity = queues_.capacity(),
+                                     .bounce = bounce,
                                      .flags = queues_.flags,
                                      .offsets = queues_.totals,
                                      .impulses = queues_.impulses,
                                      .rays = queue,
+                                     .hits = queues_.hits,
                                      .next = next},
               stages::CompactImpulse::bytesOf(found));
   tally_.impulse += found;

@@ -32,6 +32,7 @@ struct WavefrontSetup {
   device::DeviceCamera camera;
   device::RenderConstants constants;
   std::uint32_t bounces;
+  std::uint32_t rounds;  ///< of the loop, see mostHits
   std::uint32_t compactChunk;
 };
 
@@ -76,9 +77,9 @@ class Wavefront {
   std::uint32_t traceSegment(const Buffer& queue, Segment segment, std::uint32_t bounce, Buffer& next);
 
   void raygen(const Buffer& queue, std::uint32_t count);
-  void intersect(const Buffer& queue, Segment segment);
+  void intersect(const Buffer& queue, Segment segment, std::uint32_t bounce);
   void shade(const Buffer& queue, Segment segment, std::uint32_t bounce);
-  void shadeLight(const Buffer& queue, Segment segment, std::uint32_t light);
+  void shadeLight(const Buffer& queue, Segment segment, std::uint32_t bounce, std::uint32_t light);
   /// What shading asked for in a segment.
   struct Candidates {
     std::uint32_t shadow = 0, impulse = 0;
@@ -87,7 +88,8 @@ class Wavefront {
   Candidates countCandidates(Segment segment);
   std::uint32_t compactShadow(Segment segment, std::uint32_t found);
   void occlude(std::uint32_t count);
-  std::uint32_t compactImpulse(const Buffer& queue, Segment segment, std::uint32_t found, Buffer& next);
+  std::uint32_t compactImpulse(const Buffer& queue, Segment segment, std::uint32_t bounce,
+                               std::uint32_t found, Buffer& next);
   void accumulate(const Buffer& queue, Segment segment);
   void film(const Buffer& blocks);
 

@@ -51,6 +51,8 @@
 #define BIT_LIGHTS 42                      // direct light
 #define BIT_NEAREST_FILTER 43              // nearest texture filter
 #define BIT_CUTOFF 44                      // cut-off of weak impulses
+#define BIT_STRAIGHT 45                    // rays that go straight on
+#define BIT_ONE_SIDED 46                   // back faces left out
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

@@ -26,8 +26,10 @@ WHITTLE_STRUCT(Node) {
   int pad[2];
 };
 
-#define TRIANGLE_MASKED 1u   // alpha MASK: a hit must pass the alpha test
-#define TRIANGLE_FILTERS 2u  // lets some light through: shadow rays go on, dimmed
+#define TRIANGLE_MASKED 1u     // alpha MASK: a hit must pass the alpha test
+#define TRIANGLE_FILTERS 2u    // lets some light through: shadow rays go on, dimmed
+#define TRIANGLE_COATS 4u      // alpha BLEND: comes before what lies in the same plane
+#define TRIANGLE_ONE_SIDED 8u  // eye and impulse rays do not meet its back
 
 // A triangle in leaf order, corners in world space.
 WHITTLE_STRUCT(DeviceTriangle) {
@@ -126,7 +128,8 @@ WHITTLE_STRUCT(RenderConstants) {
   int backgroundHeight;
   float mirrorRoughness;
   uint seed;
-  float cutoff;  // an impulse whose throughput is at most this in every channel is not traced
+  float cutoff;             // an impulse whose throughput is at most this in every channel is not traced
+  uint transparentBounces;  // surfaces that a ray may pass straight on, besides its bounces
 };
 
 // The samples of one batch: pixels [firstPixel, firstPixel + pixels) of the pixel order, times samples
@@ -152,6 +155,23 @@ WHITTLE_STRUCT(Batch) {
 #define RAY_PLANES 10
 #define EYE_RAY_PLANES 6
 
+// With STRAIGHT, behind those (eye rays: not written): what the ray has met already, where it went straight on. Origin
+// and direction stay as they were, so that nothing is lost between two surfaces, and hits go on in the order of
+// (HIT_ORDER, triangle index), strictly after the last: that order (0: none yet) and the triangle in leaf order. Then
+// its steps: bounces, passages straight on (from bit 13) and, up to 63, those of them where the surface sent out an
+// impulse too (from bit 26).
+#define RAY_AFTER_ORDER 10
+#define RAY_AFTER_TRIANGLE 11
+#define RAY_STEPS 12
+#define RAY_PLANES_STRAIGHT 13
+#define STEP_BOUNCE 1u
+#define STEP_STRAIGHT (1u << 13)
+#define STEP_BRANCHED (1u << 26)
+// A surface that both reflects and lets straight on makes two rays of one, and a stack of them would make thousands: an
+// impulse is followed only if there would be a bounce for it had those passages been bounces, or if it still carries
+// this share of the picture, which few can.
+#define BRANCH_SHARE 0.015625f
+
 // Hits: triangle in leaf order (uint bits, NO_HIT), barycentrics b1, b2, distance (m). Only TEXTURES,
 // ABSORPTION and AOVS ask how far away a hit is; without them the queue ends before that.
 #define HIT_TRIANGLE 0
@@ -160,6 +180,12 @@ WHITTLE_STRUCT(Batch) {
 #define HIT_T 3
 #define HIT_PLANES 4
 #define HIT_PLANES_WITHOUT_T 3
+// With STRAIGHT also what decides which hit comes first: the distance, but of a blended surface a little less
+// (COAT_ORDER). So a decal shows that lies exactly in the plane of a wall, whatever rounding makes of the two
+// distances.
+#define HIT_ORDER 4
+#define HIT_PLANES_STRAIGHT 5
+#define COAT_ORDER 0.99999905f  // 1 - 2^-20: above the rounding of two distances, 5 um at 5 m
 #define NO_HIT 0xffffffffu
 
 // Shadow candidates, one for each ray entry and light round: offset origin, direction, length, contribution.
@@ -180,11 +206,14 @@ WHITTLE_STRUCT(Batch) {
 #define ENTRY_SHADOW 1u
 #define ENTRY_IMPULSE0 2u
 #define ENTRY_IMPULSE1 4u
+#define ENTRY_STRAIGHT0 8u  // that impulse goes straight on
+#define ENTRY_STRAIGHT1 16u
+#define ENTRY_BRANCHED 32u  // one impulse goes straight on, the other does not
 // With CUTOFF, above the flags: what the entry's impulses would have carried but for the cut-off, each the
 // largest channel of its throughput in units of cutoff / CUTOFF_UNITS, rounded up. Sums of integers depend on
 // no order. Two impulses of CUTOFF_UNITS + 2 fit, and the sum over a chunk of up to 2^14 entries fits 32
 // bits.
-#define ENTRY_CUTOFF_SHIFT 3
+#define ENTRY_CUTOFF_SHIFT 6
 #define CUTOFF_UNITS 65536
 
 // Film planes for each pixel, in the pixel order: compensated sums of RGB, and of the mean of their squares

@@ -228,7 +228,9 @@ TEST(GltfDefaults, EveryBoxIsFramed) {
     EXPECT_LT(widest, 0.95) << "a margin remains";
     EXPECT_GT(widest, 0.85) << "and no more than one";
     EXPECT_LT(c.forward.y, 1e-6F) << "not from below";
-    EXPECT_TRUE(z <= x || std::abs(c.forward.z) < 1e-6F) << "the larger side is seen";
+    EXPECT_EQ(std::abs(c.forward.x) > std::abs(c.forward.z), z > 1.5F * x) << "a long thing from its side";
+    EXPECT_LE(c.forward.x, 0) << "from the front right";
+    EXPECT_LE(c.forward.z, 0);
   }
 }
 

@@ -318,5 +318,31 @@ TEST(GltfLights, ReferencesAreChecked) {
   EXPECT_NE(b.error().find("but there are no lights"), std::string::npos);
 }
 
+/// A room at UTM coordinates comes out as at the origin, to the bit; what is shown has the file's
+/// coordinates.
+TEST(GltfNodes, APlaceFarAwayIsTakenOff) {
+  const auto loaded = [](const std::vector<double>& place) {
+    GltfBuilder b;
+    const int positions = b.vec3({0.1F, 0.2F, 0.3F, 1, 0, 0, 0, 1, 0.7F});
+    b.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
+    b.node(
+        {{"mesh", b.mesh({{"attributes", {{"POSITION", positions}}}})}, {"translation", {0.3, -0.1, 0.7}}});
+    b.node({{"camera", 0}, {"translation", {0.4, 0.6, 5}}});
+    b.json["nodes"].push_back({{"children", {0, 1}}, {"translation", place}});
+    b.json["scenes"][0]["nodes"] = {2};
+    return b.load();
+  };
+  const Scene home = loaded({0, 0, 0});
+  EXPECT_EQ(home.origin, glm::dvec3(0));
+  for (const std::vector<double>& place :
+       {std::vector<double>{500123.37, 12.5, -4649777.02}, std::vector<double>{4.6e6, 1.2e6, 4.1e6}}) {
+    const Scene far = loaded(place);
+    EXPECT_EQ(far.origin, glm::dvec3(place[0], place[1], place[2]));
+    EXPECT_EQ(far.positions, home.positions);
+    EXPECT_EQ(far.cameras.at(0).position, home.cameras.at(0).position);
+  }
+  EXPECT_EQ(loaded({20, 0, 0}).origin, glm::dvec3(0)) << "not far: rounding does not show";
+}
+
 }  // namespace
 }  // namespace whittle

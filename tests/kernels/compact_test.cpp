@@ -23,7 +23,7 @@ std::vector<std::uint32_t> makeFlags(Pattern pattern, std::uint32_t count) {
                                    ENTRY_SHADOW | ENTRY_IMPULSE0 | ENTRY_IMPULSE1);  // beyond count: rubbish
   for (std::uint32_t i = 0; i < count; ++i) {
     if (pattern == Pattern::None) flags[i] = 0;
-    if (pattern == Pattern::Random) flags[i] = static_cast<std::uint32_t>(rng.bits() & 7U);
+    if (pattern == Pattern::Random) flags[i] = static_cast<std::uint32_t>(rng.bits() & 63U);
     if (pattern == Pattern::OnlyLast && i + 1 < count) flags[i] = 0;
   }
   return flags;
@@ -54,22 +54,25 @@ class Compaction {
   /// The next ray queue, bits of all its planes, room for two impulses of each entry.
   std::vector<std::uint32_t> impulse(const std::vector<std::uint32_t>& flags, std::uint32_t first,
                                      std::uint32_t count, const std::vector<std::uint32_t>& impulses,
-                                     const std::vector<std::uint32_t>& rays) {
+                                     const std::vector<std::uint32_t>& rays,
+                                     const std::vector<std::uint32_t>& hits) {
     const Buffer f = upload(flags);
     const Buffer from = bench.compute.upload("impulses", impulses),
                  queue = bench.compute.upload("rays", rays);
     const Buffer next =
-        bench.compute.upload("next", std::vector<std::uint32_t>(RAY_PLANES * kCapacity, kUntouched));
+        bench.compute.upload("next", std::vector<std::uint32_t>(RAY_PLANES_STRAIGHT * kCapacity, kUntouched));
     scan(f, count, 1);
     bench.stages.run(stages::CompactImpulse{.first = first,
                                             .count = count,
                                             .capacity = kCapacity,
+                                            .bounce = 2,
                                             .flags = f,
                                             .offsets = totals_,
                                             .impulses = from,
                                             .rays = queue,
+                                            .hits = bench.compute.upload("hits", hits),
                                             .next = next});
-    return bench.read<std::uint32_t>(next, RAY_PLANES * kCapacity);
+    return bench.read<std::uint32_t>(next, RAY_PLANES_STRAIGHT * kCapacity);
   }
 
   /// What stands above the flags, summed over the entries.
@@ -124,12 +127,13 @@ void checkShadow(Compaction& compaction, Pattern pattern, std::uint32_t count) {
 
 void checkImpulse(Compaction& compaction, Pattern pattern, std::uint32_t count) {
   static const auto impulses = distinctWords(2 * IMPULSE_PLANES * kCapacity, 1U << 20);
-  static const auto rays = distinctWords(RAY_PLANES * kCapacity, 1U << 24);
+  static const auto rays = distinctWords(RAY_PLANES_STRAIGHT * kCapacity, 1U << 24);
+  static const auto hits = distinctWords(HIT_PLANES_STRAIGHT * kCapacity, 1U << 23);
   const std::uint32_t fitting =
       std::min(count, kCapacity / 2);  // two of each must fit, as the wavefront's segments see to
   const std::uint32_t first = kCapacity - fitting;
   const auto flags = makeFlags(pattern, fitting);
-  std::vector<std::uint32_t> expected(RAY_PLANES * kCapacity, kUntouched);
+  std::vector<std::uint32_t> expected(RAY_PLANES_STRAIGHT * kCapacity, kUntouched);
   std::uint32_t out = 0;
   for (std::uint32_t i = 0; i < fitting; ++i) {
     for (std::uint32_t k = 0; k < 2; ++k) {
@@ -138,10 +142,17 @@ void checkImpulse(Compaction& compaction, Pattern pattern, std::uint32_t count) 
            ++plane)  // origin, direction, throughput: planes alike in both queues
         expected[plane * kCapacity + out] = impulses[(k * IMPULSE_PLANES + plane) * kCapacity + i];
       expected[RAY_SLOT * kCapacity + out] = rays[RAY_SLOT * kCapacity + first + i];
+      const bool straight = flags[i] & (k == 0 ? ENTRY_STRAIGHT0 : ENTRY_STRAIGHT1);
+      const std::uint32_t steps = rays[RAY_STEPS * kCapacity + first + i];
+      const bool branched = (flags[i] & ENTRY_BRANCHED) && steps >> 26 < 63;
+      expected[RAY_AFTER_ORDER * kCapacity + out] = straight ? hits[HIT_ORDER * kCapacity + i] : 0;
+      expected[RAY_AFTER_TRIANGLE * kCapacity + out] = straight ? hits[HIT_TRIANGLE * kCapacity + i] : NO_HIT;
+      expected[RAY_STEPS * kCapacity + out] =
+          steps + (straight ? STEP_STRAIGHT + (branched ? STEP_BRANCHED : 0) : STEP_BOUNCE);
       ++out;
     }
   }
-  const auto next = compaction.impulse(flags, first, fitting, impulses, rays);
+  const auto next = compaction.impulse(flags, first, fitting, impulses, rays, hits);
   EXPECT_EQ(compaction.found, out);
   EXPECT_EQ(next, expected);
 }
@@ -177,7 +188,7 @@ TEST(Compact, SumsWhatWasCutOffWhateverTheChunk) {
   for (const std::uint32_t chunk : {1U, 7U, 32U, 1024U}) {
     Compaction compaction(chunk);
     // One entry holds up to two impulses; more than 32 bits in all where a chunk cannot overflow.
-    const std::uint32_t most = chunk == 1 ? (1U << 29) - 1 : 2 * (CUTOFF_UNITS + 2);
+    const std::uint32_t most = chunk == 1 ? (1U << (32 - ENTRY_CUTOFF_SHIFT)) - 1 : 2 * (CUTOFF_UNITS + 2);
     for (const std::uint32_t count : {1U, chunk + 1, kCapacity}) {
       test::Rng rng(count);
       auto flags = makeFlags(Pattern::Random, count);
@@ -195,7 +206,7 @@ TEST(Compact, SumsWhatWasCutOffWhateverTheChunk) {
 TEST(FindLongRuns, ReportsASampleLongerThanTheLimit) {
   Compaction compaction(1024);
   const auto reported = [&](std::uint32_t runBegin, std::uint32_t runLength, std::uint32_t count) {
-    auto rays = distinctWords(RAY_PLANES * kCapacity, 0);
+    auto rays = distinctWords(RAY_PLANES_STRAIGHT * kCapacity, 0);
     for (std::uint32_t i = 0; i < runLength; ++i) rays[RAY_SLOT * kCapacity + runBegin + i] = 7;
     const Buffer counters =
         compaction.bench.compute.upload("counters", std::vector<std::uint32_t>(COUNTERS, 0));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/camera.h"
 #include "scene/input_error.h"
 #include "support/probe.h"
 
@@ -42,13 +43,38 @@ TEST(Camera, OrthographicRays) {
   EXPECT_EQ(corner.direction, Vec3(0, -1, 0));
 }
 
+/// Corners of the camera's own frame, 2 : 1, in pictures of other shapes (glTF 2.0, 3.10.3).
+TEST(Camera, ShowsItsOwnFrameInEveryPicture) {
+  for (const bool orthographic : {false, true}) {
+    Camera camera = lookingDown();
+    camera.orthographic = orthographic;
+    camera.aspect = 2;
+    camera.yfov = 0.8F;
+    const double high = orthographic ? 1 : std::tan(0.5 * static_cast<double>(camera.yfov));
+    for (const auto& [width, height] : {std::pair{160, 80}, {160, 90}, {90, 90}, {60, 90}}) {
+      // The frame's corner is 2 · high to the right; a picture shows as much or more, the same both ways.
+      const Ray corner = reference::eyeRay(camera, {width, 0}, width, height);
+      const Vec3 at = orthographic ? corner.origin - Vec3(camera.position)
+                                   : corner.direction / glm::dot(corner.direction, Vec3(camera.forward));
+      const double x = glm::dot(at, Vec3(camera.right)), y = glm::dot(at, Vec3(camera.up));
+      EXPECT_GE(x, 2 * high * (1 - 1e-6));
+      EXPECT_GE(y, high * (1 - 1e-6));
+      EXPECT_NEAR(x / y, static_cast<double>(width) / height, 1e-9) << "not distorted";
+      EXPECT_TRUE(std::abs(x - 2 * high) < 1e-6 || std::abs(y - high) < 1e-6) << "no more than it must";
+    }
+  }
+}
+
 TEST(Camera, IsFoundByNameOrIndex) {
   Scene scene;
   scene.file = "room.glb";
   scene.cameras = {lookingDown("left"), lookingDown("right"), lookingDown("0")};
-  EXPECT_EQ(&reference::findCamera(scene, "right"), &scene.cameras[1]);
-  EXPECT_EQ(&reference::findCamera(scene, "1"), &scene.cameras[1]);
-  EXPECT_EQ(&reference::findCamera(scene, "0"), &scene.cameras[2]) << "a name goes before an index";
+  scene.cameras[2].node = "right";
+  scene.cameras[1].node = "stand";
+  EXPECT_EQ(findCamera(scene, "right"), 1U) << "a camera's name goes before its node's";
+  EXPECT_EQ(findCamera(scene, "stand"), 1U);
+  EXPECT_EQ(findCamera(scene, "1"), 1U);
+  EXPECT_EQ(findCamera(scene, "0"), 2U) << "a name goes before an index";
   for (const std::string bad : {"top", "3", "-1", "1x", ""}) {
     Settings settings;
     settings.width = settings.height = 1;
@@ -58,7 +84,7 @@ TEST(Camera, IsFoundByNameOrIndex) {
       FAIL() << bad;
     } catch (const InputError& error) {
       const std::string text = error.what();
-      for (const char* part : {"room.glb", "0 \"left\"", "1 \"right\"", "2 \"0\""}) {
+      for (const char* part : {"room.glb", "0 'left'", "1 'right' at 'stand'", "2 '0'"}) {
         EXPECT_NE(text.find(part), std::string::npos) << text;
       }
       EXPECT_EQ(text.find('\n'), std::string::npos);

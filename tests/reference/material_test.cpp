@@ -76,7 +76,9 @@ TEST(Alpha, BlendMixesWithWhatIsBehind) {
   EXPECT_EQ(down(probe, 0.3, 0.2), Vec3(0.25, 0.75, 0));
   EXPECT_EQ(probe.rays.impulse, 1);
   probe.settings().bounces = 1;
-  EXPECT_EQ(down(probe, 0.3, 0.2), Vec3(0.25, 0, 0)) << "the ray straight on is a bounce";
+  EXPECT_EQ(down(probe, 0.3, 0.2), Vec3(0.25, 0.75, 0)) << "the ray straight on is no bounce";
+  probe.settings().transparentBounces = 0;
+  EXPECT_EQ(down(probe, 0.3, 0.2), Vec3(0.25, 0, 0)) << "but has a limit of its own";
 }
 
 TEST(Alpha, ABlendedSheetOfGlassSendsTwoRays) {
@@ -175,6 +177,7 @@ TEST(Surface, NormalMapsTiltAlongTheTangents) {
   Material m = lambert(glm::vec3(1));
   m.normalTexture = addImage(scene, 1, 1, {{255, 204, 255, 255}});  // 1, 0.6, 1
   m.normalScale = 0.5F;
+  m.doubleSided = true;
   scene = overGreen(scene, m);
   // Tangent along x; n × T = −z, so that w = −1 makes the bitangent +z.
   scene.tangents.assign(scene.positions.size(), glm::vec4(1, 0, 0, -1));

@@ -48,6 +48,13 @@ Material busyMaterial() {
   m.emission = {0.2F, 0.1F, 0.3F};
   m.specularColor = {0.9F, 0.6F, 0.4F};
   m.transmission = 0.5F;
+// A factor of 0 would leave its texture unread.
+#define WHITTLE_NO_VECTOR(name, size)
+#define WHITTLE_NOT_0(name) \
+  if (m.name == 0.0F) m.name = 0.4F;
+  WHITTLE_MATERIAL_FACTORS(WHITTLE_NO_VECTOR, WHITTLE_NOT_0)
+#undef WHITTLE_NOT_0
+#undef WHITTLE_NO_VECTOR
   return m;
 }
 

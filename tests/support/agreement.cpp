@@ -11,6 +11,7 @@
 #include "reference/camera.h"
 #include "reference/sampler.h"
 #include "reference/trace.h"
+#include "scene/camera.h"
 #include "support/pictures.h"
 #include "support/random_scenes.h"
 
@@ -74,7 +75,7 @@ class Surroundings {
           Vec2(pixel % width, pixel / width) + reference::samplePosition(s.sampler, pixel, k, count, s.seed);
       reference::Ray ray = reference::eyeRay(world_.camera, at, s.width, s.height);
       ray.direction = glm::normalize(ray.direction + kMove * Vec3(rng.inBox(1)));
-      sum += reference::Li(world_, {pixel, k, rays}, ray, 1, Vec3(1));
+      sum += reference::Li(world_, {pixel, k, rays}, ray, {}, Vec3(1));
     }
     return sum / static_cast<double>(count);
   }

@@ -100,7 +100,7 @@ class Probe {
 
   Vec3 Li(const Vec3& origin, const Vec3& direction) {
     const reference::Sample sample{0, 0, rays};
-    return reference::Li(world(), sample, {origin, glm::normalize(direction)}, 1, Vec3(1));
+    return reference::Li(world(), sample, {origin, glm::normalize(direction)}, {}, Vec3(1));
   }
   reference::World world() const { return {scene_, settings_, triangles_, scene_.cameras[0]}; }
   std::optional<reference::Surfel> surfelAlong(const Ray& ray) const {

@@ -49,6 +49,7 @@ inline Scene sceneOf(const TriangleMesh& mesh) {
   scene.positions = mesh.positions;
   for (const glm::uvec3& t : mesh.triangles) scene.triangles.push_back({t.x, t.y, t.z, 0});
   scene.materials.emplace_back();
+  scene.materials[0].doubleSided = true;  // searches meet both sides
   scene.lights.emplace_back();
   scene.cameras.emplace_back();
   return scene;

@@ -13,12 +13,19 @@ typedef struct {
   int16 kz;                         // largest axis of the direction
   int axes[3];                      // 1: some lane has this axis
   int mixed;                        // 1: lanes differ in it
+#if HAS(STRAIGHT)
+  float16 passedOrder, tMin;  // as in Passed
+  uint16 passedPrimitive;
+#endif
 } Packet;
 
 typedef struct {
   float16 t;  // nearest so far; < 0: lane asleep
   uint16 triangle;
   float16 v, w, det;  // areas: the barycentrics b1 and b2 are v/det and w/det
+#if HAS(STRAIGHT)
+  float16 order;  // of the nearest so far; < 0 as t
+#endif
 } PacketHit;
 
 INLINE float16 boxInverse16(float16 d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign((float16)(INFINITY), d); }
@@ -47,6 +54,10 @@ INLINE Packet makePacket(const float16* o, const float16* d) {
   p.shear[2] = 1.0f / dkz;
   p.shear[0] = dkx * p.shear[2];
   p.shear[1] = dky * p.shear[2];
+#if HAS(STRAIGHT)
+  p.passedOrder = p.tMin = (float16)(0.0f);
+  p.passedPrimitive = (uint16)(0);
+#endif
   return p;
 }
 
@@ -146,16 +157,63 @@ int16 passAlphaMask(const SceneView* scene, uint index, int16 met, float16 b1, f
 }
 #endif
 
+#if HAS(STRAIGHT)
+/// `met` without the lanes of `edges` whose hits belong to a neighbour.
+int16 ownedHits(const Packet* p, __global const DeviceTriangle* triangle, int16 met, int16 edges) {
+  int lanes[PACKET_RAYS], asked[PACKET_RAYS];
+  float o[3][PACKET_RAYS], d[3][PACKET_RAYS];
+  vstore16(met, 0, lanes);
+  vstore16(edges, 0, asked);
+  for (int a = 0; a < 3; ++a) {
+    vstore16(p->o[a], 0, o[a]);
+    vstore16(p->d[a], 0, d[a]);
+  }
+  for (int i = 0; i < PACKET_RAYS; ++i) {
+    if (!asked[i]) continue;
+    const Ray r = makeRay(real3(o[0][i], o[1][i], o[2][i]), real3(d[0][i], d[1][i], d[2][i]));
+    if (!ownsHit(r.o, r.kx, r.ky, r.kz, r.sx, r.sy, triangle)) lanes[i] = 0;
+  }
+  return vload16(0, lanes);
+}
+
+/// comesAfter for sixteen rays.
+INLINE int16 comesAfter16(const SceneView* scene, const Packet* p, uint index, float16 order) {
+  const int16 ties = order == p->passedOrder;
+  int16 after = order > p->passedOrder;
+  if (anyOf16(ties)) after |= ties & (scene->triangles[index].primitive > p->passedPrimitive);
+  return after;
+}
+#endif
+
 /// 1 if a lane found something nearer.
 INLINE int testNearestPacket(const SceneView* scene, const Packet* p, __global const float* triangle, uint stride,
                              uint index, PacketHit* best) {
   float16 t = (float16)(0.0f), v = t, w = t, det = t;
+#if HAS(STRAIGHT)
+  int16 met = intersectPacket(p, triangle, stride, best->order * ORDER_WIDENING, &t, &v, &w, &det);
+  if (!anyOf16(met)) return 0;
+  const float16 order = scene->triangles[index].flags & TRIANGLE_COATS ? t * COAT_ORDER : t;
+  met &= (order <= best->order) & comesAfter16(scene, p, index, order);
+  const int16 edges = met & ((v == 0.0f) | (w == 0.0f) | (det == v + w));
+  if (anyOf16(edges) && (scene->triangles[index].flags & TRIANGLE_FILTERS))
+    met = ownedHits(p, scene->triangles + index, met, edges);
+  if (!anyOf16(met)) return 0;
+  const int16 ties = met & (order == best->order);
+#else
   int16 met = intersectPacket(p, triangle, stride, best->t, &t, &v, &w, &det);
   if (!anyOf16(met)) return 0;
   const int16 ties = met & (t == best->t);
+#endif
   if (anyOf16(ties)) met &= ~ties | firstOfTies(scene, index, ties, best->triangle);
+#if HAS(ONE_SIDED)
+  const int16 front = (det > 0.0f) == (p->shear[2] > 0.0f);
+  if (anyOf16(met & ~front) && !showsSide(scene, index, 0)) met &= front;
+#endif
 #if HAS(ALPHA_MASK)
   met = passAlphaMask(scene, index, met, v / det, w / det);
+#endif
+#if HAS(STRAIGHT)
+  best->order = select(best->order, order, met);
 #endif
   best->t = select(best->t, t, met);
   best->v = select(best->v, v, met);

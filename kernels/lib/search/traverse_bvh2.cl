@@ -7,7 +7,11 @@
 // What the triangle test takes must not be lost to its box. Relative to t, two box distances are off by 3 roundings
 // each, a corner sheared onto the ray by 12 on each of two axes, which makes 30 · 2^-24, and t itself by 15: 32 covers
 // either.
+#if HAS(STRAIGHT)
+#define FAR_WIDENING 1.0000031f  // and what may lie COAT_ORDER behind the nearest
+#else
 #define FAR_WIDENING 1.0000019f
+#endif
 
 // Box distances as plane · (1/d) - o/d in one fma are off by what rounding took from o/d, besides their own rounding:
 // half a unit in its last place, and as much again where the margin is added. Four units are taken off near and added
@@ -19,7 +23,22 @@ typedef struct {
   uint triangle;  // NO_HIT: nothing met
   uint primitive;
   float b1, b2;
+#if HAS(STRAIGHT)
+  float order;  // of the nearest so far
+#endif
 } Hit;
+
+/// Nothing met yet, as far as tMax.
+INLINE Hit noHit(float tMax) {
+  Hit hit;
+  hit.t = tMax;
+  hit.triangle = hit.primitive = NO_HIT;
+  hit.b1 = hit.b2 = 0.0f;
+#if HAS(STRAIGHT)
+  hit.order = tMax;
+#endif
+  return hit;
+}
 
 /// The box test: entry distance of child c, or +inf if it is missed or lies beyond tMax. Wider ones (childEntries8,
 /// packetEntries8, entersChild) compute it another way and let in at least as much; SearchAgreement.RandomScenes, which
@@ -27,6 +46,9 @@ typedef struct {
 /// 0 · inf = NaN there, which every comparison below takes for inside.
 INLINE float childEntry(const Ray* r, __global const Node* node, int c, float tMax) {
   float entry = 0.0f, leave = tMax;
+#if HAS(STRAIGHT)
+  entry = r->passed.tMin;
+#endif
   for (int a = 0; a < 3; ++a) {
     const float lo = (node->lo[c][a] - r->o[a]) * r->inverse[a];
     const float hi = (node->hi[c][a] - r->o[a]) * r->inverse[a];
@@ -38,18 +60,24 @@ INLINE float childEntry(const Ray* r, __global const Node* node, int c, float tM
   return entry <= leave * FAR_WIDENING ? entry : INFINITY;
 }
 
-/// Ties: true if triangle a has a lower index in the scene than b (both in leaf order), or b is none. Looked up only
-/// then: it is one more line of memory.
-INLINE int comesFirst(const SceneView* scene, uint a, uint b) {
-  return b == NO_HIT || scene->triangles[a].primitive < scene->triangles[b].primitive;
-}
-
-/// Keeps the candidate in `best` if it is nearer, or as near with a lower index.
+/// Keeps the candidate in `best` if it comes before it.
 INLINE void testNearest(const SceneView* scene, const Ray* r, uint index, Hit* best) {
   __global const DeviceTriangle* triangle = scene->triangles + index;
   Candidate c;
+#if HAS(STRAIGHT)
+  if (!intersectTriangle(r, triangle, best->order * ORDER_WIDENING, &c)) return;
+  const float order = orderOf(scene, index, c.t);
+  if (order > best->order || (order == best->order && triangle->primitive > best->primitive)) return;
+  if (!comesAfter(scene, &r->passed, index, order)) return;
+  if (c.onEdge && (triangle->flags & TRIANGLE_FILTERS) && !ownsHit(r->o, r->kx, r->ky, r->kz, r->sx, r->sy, triangle))
+    return;
+#else
   if (!intersectTriangle(r, triangle, best->t, &c)) return;
   if (c.t == best->t && triangle->primitive > best->primitive) return;
+#endif
+#if HAS(ONE_SIDED)
+  if (!showsSide(scene, index, c.front)) return;
+#endif
 #if HAS(ALPHA_MASK)
   if ((triangle->flags & TRIANGLE_MASKED) && !passesAlphaMask(scene, index, c.b1, c.b2)) return;
 #endif
@@ -58,6 +86,9 @@ INLINE void testNearest(const SceneView* scene, const Ray* r, uint index, Hit* b
   best->b2 = c.b2;
   best->triangle = index;
   best->primitive = triangle->primitive;
+#if HAS(STRAIGHT)
+  best->order = order;
+#endif
 }
 
 /// Shadow ray: true once the light is blocked. `stops` collects -log2 of the transmittance in units of 2^-16.
@@ -67,6 +98,7 @@ INLINE int testOcclusion(const SceneView* scene, const Ray* r, uint index, float
   if (!intersectTriangle(r, triangle, tMax, &c) || !(c.t < tMax)) return 0;
 #if HAS(FILTERED_SHADOWS)
   if (triangle->flags & TRIANGLE_FILTERS) {
+    if (c.onEdge && !ownsHit(r->o, r->kx, r->ky, r->kz, r->sx, r->sy, triangle)) return 0;
     const Real3 through = shadowTransmittance(scene, index, c.b1, c.b2, real3(r->d[0], r->d[1], r->d[2]));
     int blocked = 1;
     for (int k = 0; k < 3; ++k) {
@@ -100,7 +132,7 @@ INLINE Real3 transmittanceFromStops(const uint* stops) {
 // Packets search, and walk their own rays one by one.
 #elif HAS(TREE)
 Hit nearestSingle(const SceneView* scene, const Ray* r) {
-  Hit best = {MAXFLOAT, NO_HIT, NO_HIT, 0.0f, 0.0f};
+  Hit best = noHit(MAXFLOAT);
   if (!isFiniteRay(r)) return best;
   int stack[MAX_TREE_DEPTH + 4];
   int depth = 0;
@@ -155,7 +187,7 @@ INLINE Real3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMa
 }
 #else
 Hit nearestSingle(const SceneView* scene, const Ray* r) {
-  Hit best = {MAXFLOAT, NO_HIT, NO_HIT, 0.0f, 0.0f};
+  Hit best = noHit(MAXFLOAT);
   for (uint i = 0; i < scene->triangleCount; ++i) testNearest(scene, r, i, &best);
   return best;
 }

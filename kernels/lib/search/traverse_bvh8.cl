@@ -13,6 +13,11 @@ typedef struct {
   float t[PACKET_RAYS];  // < 0: asleep; else how far to look, and afterwards the distance of the nearest hit
   uint triangle[PACKET_RAYS];
   float b1[PACKET_RAYS], b2[PACKET_RAYS];
+#if HAS(STRAIGHT)
+  float passedOrder[PACKET_RAYS];  // as in Passed
+  uint passedPrimitive[PACKET_RAYS];
+  float order[PACKET_RAYS];  // afterwards that of the nearest hit
+#endif
 } RayTable;
 
 /// A ray of the table, as its tests want it.
@@ -24,6 +29,9 @@ typedef struct {
   int kx, ky, kz;
   float sx, sy, sz;
   uint lane;  // of the table
+#if HAS(STRAIGHT)
+  Passed passed;
+#endif
 } Bvh8Ray;
 
 INLINE Bvh8Ray bvh8Ray(const RayTable* rays, uint lane) {
@@ -45,6 +53,11 @@ INLINE Bvh8Ray bvh8Ray(const RayTable* rays, uint lane) {
   r.sx = rays->shear[0][lane];
   r.sy = rays->shear[1][lane];
   r.sz = rays->shear[2][lane];
+#if HAS(STRAIGHT)
+  r.passed.order = rays->passedOrder[lane];
+  r.passed.primitive = rays->passedPrimitive[lane];
+  r.passed.tMin = r.passed.order * PASSED_MARGIN;
+#endif
   return r;
 }
 
@@ -52,6 +65,9 @@ INLINE Bvh8Ray bvh8Ray(const RayTable* rays, uint lane) {
 /// lets in, and a little more where the direction is regular.
 INLINE int8 childEntries8(const Bvh8Ray* r, __global const float* node, float tMax, float8* entry) {
   float8 enter = (float8)(0.0f), leave = (float8)(tMax);
+#if HAS(STRAIGHT)
+  enter = (float8)(r->passed.tMin);
+#endif
   if (r->regular) {
     const int x = r->nearPlane[0], y = r->nearPlane[1], z = r->nearPlane[2];
     const float8 nearX = fma(vload8(0, node + x), (float8)(r->inverse[0]), (float8)(r->nearBias[0]));
@@ -120,7 +136,11 @@ INLINE uint intersectLeaf(const Bvh8Ray* r, const Leaf* leaf, float tMax, float8
 INLINE void testNearestLeaf(const SceneView* scene, const Bvh8Ray* r, int child, Hit* best) {
   const Leaf leaf = leafOf(scene, child);
   float8 t8, v8, w8, det8;
+#if HAS(STRAIGHT)
+  uint bits = intersectLeaf(r, &leaf, best->order * ORDER_WIDENING, &t8, &v8, &w8, &det8);
+#else
   uint bits = intersectLeaf(r, &leaf, best->t, &t8, &v8, &w8, &det8);
+#endif
   if (bits == 0) return;
   float t[8], v[8], w[8], det[8];
   vstore8(t8, 0, t);
@@ -129,7 +149,19 @@ INLINE void testNearestLeaf(const SceneView* scene, const Bvh8Ray* r, int child,
   vstore8(det8, 0, det);
   for (; bits != 0; bits &= bits - 1) {
     const uint lane = lowestBit(bits), index = leaf.first + lane;
+#if HAS(STRAIGHT)
+    const float order = orderOf(scene, index, t[lane]);
+    if (order > best->order || (order == best->order && !comesFirst(scene, index, best->triangle))) continue;
+    if (!comesAfter(scene, &r->passed, index, order)) continue;
+    if (mayLieOnEdge(v[lane], w[lane], det[lane]) && (scene->triangles[index].flags & TRIANGLE_FILTERS) &&
+        !ownsHit(r->o, r->kx, r->ky, r->kz, r->sx, r->sy, scene->triangles + index))
+      continue;
+#else
     if (t[lane] > best->t || (t[lane] == best->t && !comesFirst(scene, index, best->triangle))) continue;
+#endif
+#if HAS(ONE_SIDED)
+    if (!showsSide(scene, index, facesRay(det[lane], r->sz))) continue;
+#endif
     const float b1 = v[lane] / det[lane], b2 = w[lane] / det[lane];
 #if HAS(ALPHA_MASK)
     if ((scene->triangles[index].flags & TRIANGLE_MASKED) && !passesAlphaMask(scene, index, b1, b2)) continue;
@@ -138,6 +170,9 @@ INLINE void testNearestLeaf(const SceneView* scene, const Bvh8Ray* r, int child,
     best->b1 = b1;
     best->b2 = b2;
     best->triangle = index;
+#if HAS(STRAIGHT)
+    best->order = order;
+#endif
   }
 }
 
@@ -209,7 +244,7 @@ INLINE int startWalk(const SceneView* scene, const RayTable* rays, uint* next, W
   const uint lane = nextAwake(rays, next);
   if (lane == PACKET_RAYS) return 0;
   w->r = bvh8Ray(rays, lane);
-  w->best.t = rays->t[lane], w->best.triangle = NO_HIT, w->best.b1 = w->best.b2 = 0.0f;
+  w->best = noHit(rays->t[lane]);
   w->limit = keyLimit(w->best.t);
   float8 entry;
   w->keys = childKeys(childEntries8(&w->r, scene->bvh8Nodes, w->best.t, &entry), entry);
@@ -222,6 +257,9 @@ INLINE void endWalk(const Walk* w, RayTable* rays) {
   rays->triangle[w->r.lane] = w->best.triangle;
   rays->b1[w->r.lane] = w->best.b1;
   rays->b2[w->r.lane] = w->best.b2;
+#if HAS(STRAIGHT)
+  rays->order[w->r.lane] = w->best.order;
+#endif
 }
 
 /// Nearest hits. Two rays take turns, so that one computes while the other waits for memory or for its own last result.

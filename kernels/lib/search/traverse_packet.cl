@@ -14,6 +14,9 @@
 
 void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
   best->t = wakeFinite(p, best->t);
+#if HAS(STRAIGHT)
+  best->order = best->t;
+#endif
   for (uint i = 0; i < scene->triangleCount; ++i) testNearestPacket(scene, p, &scene->triangles[i].v[0][0], 1, i, best);
 }
 
@@ -33,6 +36,9 @@ typedef struct {
   int nearPlane[3];  // floats from a node to its near planes: 8 · axis, and 24 for hi
   int down[3];       // 1: directions are negative
   int together;      // 1: the rays run the same way, no direction parallel to an axis
+#if HAS(STRAIGHT)
+  float tMin;        // the least of the rays
+#endif
 } PacketBounds;
 
 /// Largest difference between directions along an axis for which rays run the same way; from 0.1 to 0.25 nothing
@@ -42,6 +48,9 @@ typedef struct {
 INLINE PacketBounds boundPacket(const Packet* p) {
   PacketBounds b;
   b.together = 1;
+#if HAS(STRAIGHT)
+  b.tMin = least16(p->tMin);
+#endif
   for (int a = 0; a < 3; ++a) {
     const float lo = least16(p->o[a]), hi = greatest16(p->o[a]);
     b.inverseLo[a] = least16(p->inverse[a]);
@@ -83,7 +92,12 @@ INLINE int8 packetEntries8(const PacketBounds* b, const float8* near, const floa
   const float8 farX = greatestDistance(far[0], b->farOrigin[0], b->inverseLo[0], b->inverseHi[0]);
   const float8 farY = greatestDistance(far[1], b->farOrigin[1], b->inverseLo[1], b->inverseHi[1]);
   const float8 farZ = greatestDistance(far[2], b->farOrigin[2], b->inverseLo[2], b->inverseHi[2]);
-  const float8 enter = largest8(nearX, nearY, nearZ, (float8)(0.0f));
+#if HAS(STRAIGHT)
+  const float8 begin = (float8)(b->tMin);
+#else
+  const float8 begin = (float8)(0.0f);
+#endif
+  const float8 enter = largest8(nearX, nearY, nearZ, begin);
   const float8 leave = smallest8(farX, farY, farZ, (float8)(tMax));
   *entry = enter;
   return enter <= leave * FAR_WIDENING;
@@ -108,7 +122,12 @@ INLINE int entersChild(const Packet* p, const PacketBounds* b, float16 tMax, __g
   const float16 farX = fma((float16)(box[24 - b->nearPlane[0]]), p->inverse[0], p->farBias[0]);
   const float16 farY = fma((float16)(box[40 - b->nearPlane[1]]), p->inverse[1], p->farBias[1]);
   const float16 farZ = fma((float16)(box[56 - b->nearPlane[2]]), p->inverse[2], p->farBias[2]);
-  const float16 enter = largest16(nearX, nearY, nearZ, (float16)(0.0f));
+#if HAS(STRAIGHT)
+  const float16 begin = p->tMin;
+#else
+  const float16 begin = (float16)(0.0f);
+#endif
+  const float16 enter = largest16(nearX, nearY, nearZ, begin);
   const float16 leave = smallest16(farX, farY, farZ, tMax);
   return anyOf16(enter <= leave * FAR_WIDENING);
 }
@@ -138,6 +157,11 @@ INLINE RayTable tableOf(const Packet* p, float16 tMax) {
   }
   vstore16(p->kz, 0, rays.kz);
   vstore16(wakeFinite(p, tMax), 0, rays.t);
+#if HAS(STRAIGHT)
+  vstore16(p->passedOrder, 0, rays.passedOrder);
+  vstore16(p->passedPrimitive, 0, rays.passedPrimitive);
+  for (int i = 0; i < PACKET_RAYS; ++i) rays.order[i] = rays.t[i];
+#endif
   return rays;
 }
 
@@ -151,6 +175,9 @@ void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
     best->triangle = vload16(0, rays.triangle);
     best->v = vload16(0, rays.b1);
     best->w = vload16(0, rays.b2);
+#if HAS(STRAIGHT)
+    best->order = vload16(0, rays.order);
+#endif
     return;
   }
   // As a single ray's way (Walk), but that a child is looked at more closely before it is visited.

@@ -1,7 +1,7 @@
 // Watertight ray-triangle test (Woop, Benthin, Wald 2013): its mathematics for every width, and the test of one ray.
 // The edge functions carry the exact sign of the projected areas (difference of products with two fma), so two
 // triangles that share an edge cannot both reject.
-#include "lib/search/one_lane.cl"
+#include "lib/search/order.cl"
 
 /// A ray with the shear that turns its largest axis into +z: o + t d.
 typedef struct {
@@ -10,11 +10,16 @@ typedef struct {
   float inverse[3];  // 1/d, ±inf below 1e-18; for boxes only
   int kx, ky, kz;
   float sx, sy, sz;
+#if HAS(STRAIGHT)
+  Passed passed;
+#endif
 } Ray;
 
 /// The candidate of one triangle test.
 typedef struct {
   float t, b1, b2;
+  int front;   // the ray meets the front side
+  int onEdge;  // perhaps: ownsHit knows
 } Candidate;
 
 INLINE float boxInverse(float d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign(INFINITY, d); }
@@ -36,6 +41,9 @@ Ray makeRay(Real3 o, Real3 d) {
   r.sz = 1.0f / r.d[r.kz];
   r.sx = r.d[r.kx] * r.sz;
   r.sy = r.d[r.ky] * r.sz;
+#if HAS(STRAIGHT)
+  r.passed = nothingPassed();
+#endif
   return r;
 }
 
@@ -81,6 +89,34 @@ HIT_DISTANCE(float, int, )
 HIT_DISTANCE(float8, int8, 8)
 HIT_DISTANCE(float16, int16, 16)
 
+/// Whether one of a hit's areas may be 0; u is then det - v - w without a rounding.
+INLINE int mayLieOnEdge(float v, float w, float det) { return v == 0.0f || w == 0.0f || det == v + w; }
+
+/// On which side of the edge from p to q a ray is that meets it exactly, were it moved by (e, e²) for a tiny e.
+INLINE float sideOfEdge(float px, float py, float qx, float qy) { return py != qy ? py - qy : qx - px; }
+
+/// A ray that meets an edge meets all triangles there, so that nothing leaks. Where each of them takes its share of
+/// the light, that would be too often: the hit then belongs to the triangle that a ray a tiny way beside it would
+/// meet, of neighbours to one (the rule by which rasterisers fill shared edges).
+int ownsHit(const float* o, int kx, int ky, int kz, float sx, float sy, __global const DeviceTriangle* triangle) {
+  float x[3], y[3];
+  for (int k = 0; k < 3; ++k) {
+    const float z = triangle->v[k][kz] - o[kz];
+    x[k] = fma(-sx, z, triangle->v[k][kx] - o[kx]);
+    y[k] = fma(-sy, z, triangle->v[k][ky] - o[ky]);
+  }
+  float u, v, w;
+  edgeTest(x[0], y[0], x[1], y[1], x[2], y[2], &u, &v, &w);
+  const int positive = u + v + w > 0.0f;
+  if (u == 0.0f && (sideOfEdge(x[2], y[2], x[1], y[1]) > 0.0f) != positive) return 0;
+  if (v == 0.0f && (sideOfEdge(x[0], y[0], x[2], y[2]) > 0.0f) != positive) return 0;
+  if (w == 0.0f && (sideOfEdge(x[1], y[1], x[0], y[0]) > 0.0f) != positive) return 0;
+  return 1;
+}
+
+/// Whether the ray meets the front: the areas have the sign of -n_g · d / d[kz], and sz is 1 / d[kz].
+INLINE int facesRay(float det, float sz) { return (det > 0.0f) == (sz > 0.0f); }
+
 /// t kept between the distances at which the ray enters and leaves the triangle's own box; for triangles with far
 /// corners. Else t could lie before the box, and which of two triangles is nearer would depend on the order in which
 /// boxes are culled; of a triangle across an axis, a floor, t becomes exact. NaN stays NaN. First all near planes, then
@@ -124,5 +160,7 @@ INLINE int intersectTriangle(const Ray* r, __global const DeviceTriangle* triang
   hit->t = t;
   hit->b1 = v / det;
   hit->b2 = w / det;
+  hit->front = facesRay(det, r->sz);
+  hit->onEdge = mayLieOnEdge(v, w, det);
   return 1;
 }

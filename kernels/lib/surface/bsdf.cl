@@ -80,6 +80,7 @@ INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s,
 typedef struct {
   Real3 w_i;
   Real3 magnitude;
+  Mask straight;  // goes on as the ray came; known with STRAIGHT
 } Impulse;
 
 #if HAS(MIRROR) || HAS(REFRACTION)
@@ -95,6 +96,7 @@ INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, 
   magnitude = add3(magnitude, scale3(s->metallic, schlick(s->baseColor, same3((float3)(1.0f)), cosine)));
 #endif
   impulse.magnitude = choose3(isSmooth(constants, s) | inside, scale3(s->alpha, magnitude), same3((float3)(0.0f)));
+  impulse.straight = (Mask)(0);
   return impulse;
 }
 #endif
@@ -116,6 +118,7 @@ INLINE Impulse transmissionImpulse(const Surfel* s, Real3 w_o, Real3 reflectance
   Impulse impulse;
   const Real3 zero = same3((float3)(0.0f));
   impulse.w_i = minus3(w_o);
+  impulse.straight = s->transmission > 0.0f;
   const Real passing = s->alpha * (1.0f - s->metallic) * s->transmission;
   impulse.magnitude = mul3(scale3(passing, s->baseColor),
                            real3(1.0f - reflectance.x, 1.0f - reflectance.y, 1.0f - reflectance.z));
@@ -126,6 +129,7 @@ INLINE Impulse transmissionImpulse(const Surfel* s, Real3 w_o, Real3 reflectance
   Real3 w_t = refracted(s->n, w_o, eta);
   w_t = choose3(dot3(s->n_g, w_t) < 0.0f, w_t, refracted(s->n_g, w_o, eta));
   impulse.w_i = choose3(bends, w_t, impulse.w_i);
+  impulse.straight = impulse.straight & !bends;
   const Mask stopped = (volume & (s->ior == 0.0f)) | (bends & !(dot3(s->n_g, w_t) < 0.0f));
   impulse.magnitude = choose3(stopped, zero, impulse.magnitude);
 #endif
@@ -140,6 +144,7 @@ INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 
   const Real3 zero = same3((float3)(0.0f)), back = minus3(w_o);
   first->magnitude = second->magnitude = zero;
   first->w_i = second->w_i = back;
+  first->straight = second->straight = (Mask)(0);
 #if HAS(IMPULSES)
 #if HAS(MIRROR) || HAS(REFRACTION) || HAS(TRANSMISSION)
   if (some(isSmooth(constants, s) | (s->transmission > 0.0f))) {
@@ -168,6 +173,8 @@ INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 
     first->magnitude = choose3(thin, through, reflection.magnitude);
     second->w_i = choose3(thin & !bends, reflection.w_i, second->w_i);
     second->magnitude = choose3(thin & !bends, reflection.magnitude, second->magnitude);
+    first->straight = thin | reflection.straight;
+    second->straight = second->straight & !thin;
   }
 #endif
 #if HAS(UNLIT)
@@ -176,6 +183,7 @@ INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 
   first->magnitude = choose3(unlit, straight3, first->magnitude);
   second->w_i = choose3(unlit, back, second->w_i);
   second->magnitude = choose3(unlit, zero, second->magnitude);
+  first->straight = first->straight | unlit;
 #endif
 #endif
 }

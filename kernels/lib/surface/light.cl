@@ -28,7 +28,7 @@ INLINE Illumination illuminationAt(__global const DeviceLight* light, Real3 p) {
     return result;
   }
 #endif
-#if HAS(POINT_LIGHTS) || HAS(SPOT_LIGHTS)
+#if HAS(POINT_LIGHTS) || HAS(SPOT_LIGHTS)  // every light with a place: one that is missing here is black when alone
   const Real3 toLight = sub3(same3(load3(light->position)), p);
   const Real d2 = dot3(toLight, toLight);
   Mask reached = d2 > 0.0f;

@@ -80,7 +80,7 @@ INLINE Rgba blendTexels(const SceneView* scene, const Records* texture, Real u, 
   return result;
 }
 
-// Shading looks up to seven slots: calls cost it less than a tenth of shade, where copies cost two thirds of the time
+// Shading looks up each slot: calls cost it less than a tenth of shade, where copies cost two thirds of the time
 // to compile. Searches look up one or two, mostly for alpha alone: in line the colours fall away (search/one_lane.cl).
 #ifndef TEXTURE_LOOKUP
 #define TEXTURE_LOOKUP

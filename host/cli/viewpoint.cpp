@@ -1,0 +1,95 @@
+// See viewpoint.h.
+#include "cli/viewpoint.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <vector>
+
+#include "cli/option_kinds.h"
+#include "report/text.h"
+#include "scene/input_error.h"
+
+namespace whittle::cli {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kFarthest = 1e18;  // metres
+
+/// Numbers with commas between them, `least` to `most` of them.
+std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t least,
+                                 std::size_t most) {
+  std::vector<double> numbers;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    numbers.push_back(parseReal(option, text.substr(begin, end - begin), -kFarthest, kFarthest));
+    begin = end + 1;
+  }
+  if (numbers.size() < least || numbers.size() > most)
+    throw InputError(
+        fmt::format("{}: '{}' is not {} numbers with commas between them", option, text,
+                    least == most ? std::to_string(least) : fmt::format("{} or {}", least, most)));
+  return numbers;
+}
+
+glm::dvec3 parsePoint(const std::string& option, const std::string& text) {
+  const auto n = parseNumbers(option, text, 3, 3);
+  return {n[0], n[1], n[2]};
+}
+
+bool given(const CLI::Option* option) { return option && option->count() > 0; }
+
+/// As short as it can be and still the same number in single precision.
+std::string pointText(const glm::dvec3& p) { return fmt::format("{:.9g},{:.9g},{:.9g}", p.x, p.y, p.z); }
+
+}  // namespace
+
+void addViewpointOptions(CLI::App& c, ViewpointOptions& o, CLI::Option* camera) {
+  Viewpoint& v = o.viewpoint;
+  o.camera = camera;
+  o.eye = addText(c, "--eye", [&v](const std::string& t) { v.eye = parsePoint("--eye", t); },
+                  {"X,Y,Z", "look from this point instead of a camera of the file, metres", ""});
+  o.lookAt = addText(c, "--look-at", [&v](const std::string& t) { v.lookAt = parsePoint("--look-at", t); },
+                     {"X,Y,Z", "at this one", "the scene's middle"});
+  o.up = addText(c, "--up", [&v](const std::string& t) { v.up = parsePoint("--up", t); },
+                 {"X,Y,Z", "what is up in the picture", "0,1,0"});
+  o.fov = addText(c, "--fov",
+                  [&v](const std::string& t) { v.yfov = parseReal("--fov", t, 0.001, 179) / kDegrees; },
+                  {"DEGREES", "vertical field of view of --eye and --orbit", "40.1"});
+  o.orbit = addText(c, "--orbit",
+                    [&v](const std::string& t) {
+                      const auto n = parseNumbers("--orbit", t, 2, 3);
+                      v.orbit = {n[0], n[1]};
+                      v.distance = n.size() == 3 ? std::optional(n[2]) : std::nullopt;
+                      if (v.distance && !(*v.distance > 0.0))
+                        throw InputError("--orbit: the distance must be positive");
+                    },
+                    {"AZIMUTH,ELEVATION[,DISTANCE]",
+                     "look at the scene's middle from there: degrees from +Z towards +X, degrees above it, "
+                     "metres",
+                     "all of the scene in the picture"});
+}
+
+std::optional<Viewpoint> chosenViewpoint(const ViewpointOptions& o) {
+  const bool eye = given(o.eye), orbit = given(o.orbit);
+  if (eye && orbit) throw InputError("--eye and --orbit: give one of the two");
+  if ((eye || orbit) && given(o.camera))
+    throw InputError(fmt::format("--camera and {}: give one of the two", eye ? "--eye" : "--orbit"));
+  if (!eye && given(o.lookAt)) throw InputError("--look-at: needs --eye");
+  if (!eye && !orbit)
+    for (const CLI::Option* option : {o.up, o.fov})
+      if (given(option)) throw InputError(fmt::format("{}: needs --eye or --orbit", option->get_name()));
+  if (!eye && !orbit) return std::nullopt;
+  return o.viewpoint;
+}
+
+std::string viewpointText(const Camera& c, const glm::dvec3& origin) {
+  if (c.orthographic) return "";
+  const glm::dvec3 eye = glm::dvec3(c.position) + origin;
+  return fmt::format("--eye {} --look-at {} --up {} --fov {:.7g}", pointText(eye),
+                     pointText(eye + glm::dvec3(c.forward)), pointText(glm::dvec3(c.up)),
+                     static_cast<double>(c.yfov) * kDegrees);
+}
+
+}  // namespace whittle::cli

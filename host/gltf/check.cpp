@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -41,6 +42,12 @@ std::string someOf(std::size_t count, std::string_view plural) {
   return fmt::format("is 1 {}", plural.substr(0, plural.size() - (plural == "meshes" ? 2 : 1)));
 }
 
+/// What is wrong with a property, as a sentence without its end. Where the property is forgiven, it is left
+/// out; elsewhere the file is refused.
+struct Flaw {
+  std::string text;
+};
+
 class Checker {
  public:
   Checker(const Document& document, const Json& root) : document_(document) {
@@ -52,26 +59,50 @@ class Checker {
     if (root.contains(lights)) counts_["lights"] = root[lights].size();
   }
 
-  Json object(const Json& in, std::span<const Field> fields, const Where& where) const {
+  Json object(const Json& in, std::span<const Field> fields, const Where& where) {
     if (!in.is_object()) wrong(where, "must be an object");
     Json out = Json::object();
     for (const Field& field : fields) {
+      const Where here{&where, field.key};
       const auto found = in.find(field.key);
       if (found == in.end() || found->is_null()) {
-        if (field.isRequired) wrong({&where, field.key}, "is missing");
+        if (field.isRequired) wrong(here, "is missing");
         continue;
       }
-      out[field.key] = value(*found, field, {&where, field.key});
+      try {
+        out[field.key] = value(*found, field, here);
+      } catch (const Flaw& flaw) {
+        if (!field.isForgiven) throw;
+        forgive(field, flaw.text + "; read as if it were not there");
+      }
     }
     return out;
   }
 
- private:
-  [[noreturn]] void wrong(const Where& where, std::string_view what) const {
-    document_.fail(fmt::format("{} {}", textOf(where), what));
+  void warnOfForgiven() const {
+    for (const auto& [key, flaws] : forgiven_) {
+      document_.warn(flaws.count == 1 ? flaws.first
+                                      : fmt::format("{} (and {} more)", flaws.first, flaws.count - 1));
+    }
   }
 
-  Json value(const Json& in, const Field& field, const Where& where) const {
+ private:
+  struct Flaws {
+    std::string first;
+    std::size_t count = 0;
+  };
+
+  [[noreturn]] static void wrong(const Where& where, std::string_view what) {
+    throw Flaw{fmt::format("{} {}", textOf(where), what)};
+  }
+
+  /// A writer that does something wrong does it throughout the file: one warning says so.
+  void forgive(const Field& field, std::string what) {
+    Flaws& flaws = forgiven_[field.key];
+    if (flaws.count++ == 0) flaws.first = std::move(what);
+  }
+
+  Json value(const Json& in, const Field& field, const Where& where) {
     switch (field.kind) {
       case Kind::Index:
         return indexValue(in, field, where);
@@ -95,18 +126,33 @@ class Checker {
     }
   }
 
-  Json array(const Json& in, const Field& field, const Where& where) const {
+  /// How many numbers of a list are used: of too many, where that is forgiven, the first.
+  std::size_t usedNumbers(const Json& in, const Field& field, const Where& where) {
+    if (field.length == 0 || in.size() == field.length) return in.size();
+    const std::string what = fmt::format("must have {} numbers, but has {}", field.length, in.size());
+    const bool isLonger = in.size() > field.length;
+    const bool willDo = isLonger || (field.least > 0 && in.size() >= field.least);
+    if (!field.isForgiven || !willDo) wrong(where, what);
+    forgive(field, textOf(where) + " " + what +
+                       (isLonger ? "; the first ones are used" : "; the missing ones are taken for 1"));
+    return std::min(in.size(), field.length);
+  }
+
+  Json numbers(const Json& in, const Field& field, const Where& where) {
+    const std::size_t used = usedNumbers(in, field, where);
+    Json out = Json::array();
+    for (std::size_t i = 0; i < used; ++i) out.push_back(numberValue(in[i], {&where, {}, i}));
+    while (out.size() < field.length) out.push_back(1.0);
+    return out;
+  }
+
+  Json array(const Json& in, const Field& field, const Where& where) {
     if (!in.is_array()) wrong(where, "must be an array");
-    if (field.kind == Kind::Numbers && field.length > 0 && in.size() != field.length) {
-      wrong(where, fmt::format("must have {} numbers, but has {}", field.length, in.size()));
-    }
+    if (field.kind == Kind::Numbers) return numbers(in, field, where);
     Json out = Json::array();
     for (std::size_t i = 0; i < in.size(); ++i) {
       const Where element{&where, {}, i};
       switch (field.kind) {
-        case Kind::Numbers:
-          out.push_back(numberValue(in[i], element));
-          break;
         case Kind::Texts:
           out.push_back(textValue(in[i], element));
           break;
@@ -157,7 +203,9 @@ class Checker {
       const auto count = counts_.find(field.target);
       const std::size_t size = count == counts_.end() ? 0 : count->second;
       if (number >= size) {
-        wrong(where, fmt::format("is {}, but there {}", number, someOf(size, field.target)));
+        // Nobody can tell what was meant, so this is never forgiven.
+        document_.fail(
+            fmt::format("{} is {}, but there {}", textOf(where), number, someOf(size, field.target)));
       }
     }
     bool legal = field.oneOf.empty();
@@ -168,6 +216,7 @@ class Checker {
 
   const Document& document_;
   std::map<std::string_view, std::size_t> counts_;
+  std::map<std::string_view, Flaws> forgiven_;  ///< by key
 };
 
 void dropKeys(Json& json, std::span<const char* const> keys) {
@@ -183,7 +232,14 @@ void dropKeys(Json& json, std::span<const char* const> keys) {
 
 Json checkedCopy(const Document& document, const Json& json) {
   if (!json.is_object()) document.fail("not a glTF file: its JSON is not an object");
-  return Checker(document, json).object(json, rootFields(), {});
+  Checker checker(document, json);
+  try {
+    Json checked = checker.object(json, rootFields(), {});
+    checker.warnOfForgiven();
+    return checked;
+  } catch (const Flaw& flaw) {
+    document.fail(flaw.text);
+  }
 }
 
 Json descriptionOnly(const Json& checked) {

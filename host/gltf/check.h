@@ -7,8 +7,9 @@
 namespace whittle::gltf {
 
 /// A copy of `json` with the properties that Whittle reads and no others. Throws InputError, naming the
-/// property, where one has the wrong type, is missing, or is an index that does not exist. `extras` are kept
-/// as they are.
+/// property, where one has the wrong type, is missing, or is an index that does not exist. Of how things look
+/// (shapes.cpp: what is forgiven) a property with a flaw is left out instead, with a warning. `extras` are
+/// kept as they are.
 Json checkedCopy(const Document& document, const Json& json);
 
 /// The same without buffers, images, extensions and extras: what tinygltf gets to read. It would otherwise

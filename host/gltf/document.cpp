@@ -127,7 +127,7 @@ void readFromUri(Document& document, int buffer, const std::string& uri, std::ui
     document.fail(fmt::format("buffer {} is at{}; Whittle reads local files only", buffer, quotedName(uri)));
   }
   constexpr std::uint64_t kPointerStart = 64;  // enough to tell a git-lfs pointer by
-  const auto problem = readStart(resolveUri(document.folder, uri), std::max(length, kPointerStart), bytes);
+  const auto problem = readStart(fileOf(document, uri), std::max(length, kPointerStart), bytes);
   if (problem) document.fail(fmt::format("buffer {}: the file{} {}", buffer, quotedName(uri), *problem));
   if (isLfsPointer(asText(bytes))) {
     document.fail(fmt::format("buffer {}: the file{} is a git-lfs pointer, not the data (run git lfs pull)",
@@ -174,6 +174,7 @@ void Document::fail(std::string_view what) const {
 void openDocument(Document& document, const std::filesystem::path& path, Notices& notices) {
   document.name = path.string();
   document.folder = path.parent_path();
+  document.notices = &notices;
   const auto problem = readStart(path, std::numeric_limits<std::uint64_t>::max(), document.file);
   if (problem) document.fail(*problem);
   const Json json = readContainer(document);
@@ -196,6 +197,14 @@ std::span<const std::byte> viewData(Document& document, int view) {
     document.fail(fmt::format("bufferViews[{}] reaches beyond buffer {}", view, v.buffer));
   }
   return data.subspan(v.byteOffset, v.byteLength);
+}
+
+std::filesystem::path fileOf(const Document& document, std::string_view uri) {
+  LocalFile file = resolveUri(document.folder, uri);
+  if (file.hadBackslashes) {
+    document.warn(fmt::format("the URI{} has backslashes; they are read as slashes", quotedName(uri)));
+  }
+  return std::move(file.path);
 }
 
 const Json& child(const Json& object, const char* key) {

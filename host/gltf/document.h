@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/notices.h"
@@ -35,9 +36,12 @@ struct Document {
   tinygltf::Model model;  ///< everything else
   std::vector<Bytes> bufferBytes;  ///< filled by bufferData
   std::vector<bool> bufferRead;
+  Notices* notices = nullptr;  ///< never null once the file is opened
 
   /// Throws InputError with one line, "NAME: what".
   [[noreturn]] void fail(std::string_view what) const;
+  /// Of what the file goes on without.
+  void warn(std::string what) const { notices->warn(std::move(what)); }
 };
 
 /// A checked index of the file as C++ has it.
@@ -48,6 +52,9 @@ void openDocument(Document& document, const std::filesystem::path& path, Notices
 
 /// The bytes of a buffer view, checked against its buffer. Throws InputError.
 std::span<const std::byte> viewData(Document& document, int view);
+
+/// The file that the URI of a buffer or an image means. Warns of names that only nearly fit.
+std::filesystem::path fileOf(const Document& document, std::string_view uri);
 
 /// The object under `key`, or an empty object where there is none.
 const Json& child(const Json& object, const char* key);

@@ -52,10 +52,9 @@ class PrimitiveReader {
     const Needs needs = needsOf(material);
     if (needs.uv[0]) readCoordinates(mesh, 0);
     if (needs.uv[1]) readCoordinates(mesh, 1);
-    if (needs.tangents) copyTo(mesh.tangents, attribute("TANGENT", kTangent));
     readColours(mesh);
     mesh.triangles = readTriangles(document_, primitive_, count_, label_, notices_);
-    if (needs.tangents && mesh.tangents.empty()) generateTangents(mesh, material.normalTexture);
+    if (needs.tangents) findTangents(mesh, material.normalTexture);
     return mesh;
   }
 
@@ -84,14 +83,36 @@ class PrimitiveReader {
     }
   }
 
-  void readColours(LocalMesh& mesh) {
-    const std::vector<float> values = attribute("COLOR_0", kColour);
-    if (values.empty()) return;
-    const std::size_t n = values.size() / count_;
-    mesh.colors.resize(count_, glm::vec4(1.0F));
-    for (std::size_t i = 0; i < count_; ++i) {
-      for (std::size_t c = 0; c < n; ++c) mesh.colors[i][static_cast<int>(c)] = values[i * n + c];
+  /// The file's tangents, turned as the image is; others where it has none that count. Without normals they
+  /// do not count: the triangles are flat, whatever the tangents were made for (glTF 2.0, 3.7.2.1).
+  void findTangents(LocalMesh& mesh, const TextureSlot& slot) {
+    if (!mesh.normals.empty() && tangentsFollow(slot)) {
+      copyTo(mesh.tangents, attribute("TANGENT", kTangent));
     }
+    mesh.tangents.empty() ? generateTangents(mesh, slot) : turnTangents(mesh, slot);
+  }
+
+  /// TANGENT belongs to the coordinates that the normal texture names, whichever set that is (3.7.2.1): a
+  /// file does not say what else it was made for. Where KHR_texture_transform then chooses another set,
+  /// TANGENT says nothing of how the image lies.
+  bool tangentsFollow(const TextureSlot& slot) const {
+    if (primitive_.material < 0) return true;
+    const Json& material = document_.json["materials"][at(primitive_.material)];
+    return number(child(material, "normalTexture"), "texCoord", 0.0) == slot.uvSet;
+  }
+
+  /// RGB or RGBA, and so may its deltas be, each for itself. Within [0, 1] after morphing (3.7.2.1, 3.7.2.2).
+  void readColours(LocalMesh& mesh) {
+    const std::vector<float> stored = withoutMorphs("COLOR_0", kColour);
+    if (stored.empty()) return;
+    const std::size_t n = stored.size() / count_;
+    std::vector<float> values(4 * count_, 1.0F);
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t c = 0; c < n; ++c) values[4 * i + c] = stored[n * i + c];
+    }
+    morph("COLOR_0", 4, values);
+    for (float& value : values) value = std::clamp(value, 0.0F, 1.0F);
+    copyTo(mesh.colors, values);
   }
 
   /// JOINTS_0 and WEIGHTS_0, then 1, …: as many sets as there are.
@@ -134,6 +155,12 @@ class PrimitiveReader {
 
   /// Empty if the attribute is absent, or left out because of its format.
   std::vector<float> attribute(const std::string& name, const Format& format) {
+    std::vector<float> values = withoutMorphs(name, format);
+    if (!values.empty()) morph(name, static_cast<int>(values.size() / count_), values);
+    return values;
+  }
+
+  std::vector<float> withoutMorphs(const std::string& name, const Format& format) {
     const auto found = primitive_.attributes.find(name);
     if (found == primitive_.attributes.end()) return {};
     const tinygltf::Accessor& a = accessorAt(document_, found->second);
@@ -144,9 +171,7 @@ class PrimitiveReader {
       notices_.warn(fmt::format("{}: the format of {} is not legal; it is left out", label_, name));
       return {};
     }
-    std::vector<float> values = readFloats(document_, found->second);
-    morph(name, componentCount(a), values);
-    return values;
+    return readFloats(document_, found->second);
   }
 
   /// Adds weight · delta for each target that has the attribute. Deltas of tangents have no w.

@@ -34,14 +34,17 @@ Needs needsOf(const Material& material);
 bool isDrawable(const tinygltf::Primitive& primitive);
 
 /// Throws InputError for what cannot be read; warns about attributes that are left out. Morph targets are
-/// applied with `morphWeights`; tangents are generated where the material needs them and the mesh has none.
+/// applied with `morphWeights`; tangents, where the material needs them, are along its normal map.
 LocalMesh readPrimitive(Document& document, int mesh, int primitive, const Material& material,
                         std::span<const double> morphWeights, bool isSkinned, Notices& notices);
 
 /// Appends a copy of vertex `v` and returns its index.
 std::uint32_t duplicateVertex(LocalMesh& mesh, std::uint32_t v);
 
-/// Tangents from the derivatives of the texture coordinates that `slot` reads (tangents.cpp).
+/// Tangents from the derivatives of the texture coordinates that `slot` reads (tangents.cpp). A mesh without
+/// normals is flat: then each triangle gets vertices of its own, and the tangent of its own plane.
 void generateTangents(LocalMesh& mesh, const TextureSlot& slot);
+/// Turns and mirrors the mesh's tangents as `slot` does the image (KHR_texture_transform). Needs normals.
+void turnTangents(LocalMesh& mesh, const TextureSlot& slot);
 
 }  // namespace whittle::gltf

@@ -32,6 +32,24 @@ constexpr Field objects(const char* key, std::span<const Field> f) {
 }
 constexpr Field raw(const char* key) { return {key, Kind::Raw}; }
 
+/// How things look or are called: a picture without it is better than none.
+constexpr Field forgiven(Field field) {
+  field.isForgiven = true;
+  return field;
+}
+/// The same for all properties that an object may do without.
+template <std::size_t n>
+constexpr std::array<Field, n> forgiving(std::array<Field, n> fields) {
+  for (Field& field : fields) field.isForgiven = !field.isRequired;
+  return fields;
+}
+/// A colour with alpha, or without it: opaque.
+constexpr Field colourWithAlpha(const char* key) {
+  Field field = nums(key, 4);
+  field.least = 3;
+  return field;
+}
+
 constexpr std::array kComponentTypes{5120, 5121, 5122, 5123, 5125, 5126};
 constexpr std::array kIndexTypes{5121, 5123, 5125};
 constexpr std::array kModes{0, 1, 2, 3, 4, 5, 6};
@@ -56,18 +74,20 @@ constexpr std::array kAccessor{index("bufferView", "bufferViews"),
                                required(text("type")),
                                object("sparse", kSparse)};
 constexpr std::array kPrimitive{required(Field{"attributes", Kind::Map, "accessors"}),
-                                index("indices", "accessors"), index("material", "materials"),
-                                code("mode", kModes), Field{"targets", Kind::Maps, "accessors"}};
-constexpr std::array kMesh{required(objects("primitives", kPrimitive)), nums("weights", 0), text("name")};
+                                forgiven(index("indices", "accessors")),
+                                forgiven(index("material", "materials")), code("mode", kModes),
+                                Field{"targets", Kind::Maps, "accessors"}};
+constexpr std::array kMesh{required(objects("primitives", kPrimitive)), nums("weights", 0),
+                           forgiven(text("name"))};
 constexpr std::array kInstancing{required(Field{"attributes", Kind::Map, "accessors"})};
 constexpr std::array kNodeLight{required(index("light", "lights"))};
-constexpr std::array kNodeExtensions{object("KHR_lights_punctual", kNodeLight),
+constexpr std::array kNodeExtensions{forgiven(object("KHR_lights_punctual", kNodeLight)),
                                      object("EXT_mesh_gpu_instancing", kInstancing)};
-constexpr std::array kNode{text("name"),
+constexpr std::array kNode{forgiven(text("name")),
                            indices("children", "nodes"),
-                           index("mesh", "meshes"),
-                           index("skin", "skins"),
-                           index("camera", "cameras"),
+                           forgiven(index("mesh", "meshes")),
+                           forgiven(index("skin", "skins")),
+                           forgiven(index("camera", "cameras")),
                            nums("matrix", 16),
                            nums("translation", 3),
                            nums("rotation", 4),
@@ -75,58 +95,58 @@ constexpr std::array kNode{text("name"),
                            nums("weights", 0),
                            object("extensions", kNodeExtensions),
                            raw("extras")};
-constexpr std::array kScene{text("name"), indices("nodes", "nodes"), raw("extras")};
-constexpr std::array kSkin{text("name"), required(indices("joints", "nodes")),
-                           index("inverseBindMatrices", "accessors")};
+constexpr std::array kScene{forgiven(text("name")), indices("nodes", "nodes"), raw("extras")};
+constexpr std::array kSkin{forgiven(text("name")), required(indices("joints", "nodes")),
+                           forgiven(index("inverseBindMatrices", "accessors"))};
 constexpr std::array kPerspective{required(num("yfov")), required(num("znear")), num("aspectRatio"),
                                   num("zfar")};
 constexpr std::array kOrthographic{required(num("xmag")), required(num("ymag")), required(num("znear")),
                                    required(num("zfar"))};
-constexpr std::array kCamera{text("name"), required(text("type")), object("perspective", kPerspective),
-                             object("orthographic", kOrthographic)};
-constexpr std::array kSpot{num("innerConeAngle"), num("outerConeAngle")};
-constexpr std::array kLight{text("name"), required(text("type")), nums("color", 3), num("intensity"),
-                            num("range"), object("spot", kSpot),  raw("extras")};
+constexpr std::array kCamera{forgiven(text("name")), required(text("type")),
+                             object("perspective", kPerspective), object("orthographic", kOrthographic)};
+constexpr auto kSpot = forgiving(std::array{num("innerConeAngle"), num("outerConeAngle")});
+constexpr auto kLight =
+    forgiving(std::array{text("name"), required(text("type")), nums("color", 3), num("intensity"),
+                         num("range"), object("spot", kSpot), raw("extras")});
 constexpr std::array kLights{required(objects("lights", kLight))};
 constexpr std::array kRootExtensions{object("KHR_lights_punctual", kLights)};
 
-constexpr std::array kSampler{code("magFilter", kMagFilters), code("minFilter", kMinFilters),
-                              code("wrapS", kWraps), code("wrapT", kWraps)};
-constexpr std::array kImage{text("uri"), text("mimeType"), index("bufferView", "bufferViews"), text("name")};
-constexpr std::array kTexture{index("sampler", "samplers"), index("source", "images"), raw("extensions")};
-constexpr std::array kTransform{nums("offset", 2), num("rotation"), nums("scale", 2), size("texCoord")};
-constexpr std::array kSlotExtensions{object("KHR_texture_transform", kTransform)};
-constexpr std::array kSlot{required(index("index", "textures")), size("texCoord"), num("scale"),
-                           num("strength"), object("extensions", kSlotExtensions)};
-constexpr std::array kPbr{nums("baseColorFactor", 4), object("baseColorTexture", kSlot),
-                          num("metallicFactor"), num("roughnessFactor"),
-                          object("metallicRoughnessTexture", kSlot)};
-constexpr std::array kEmissiveStrength{num("emissiveStrength")};
-constexpr std::array kIor{num("ior")};
-constexpr std::array kTransmission{num("transmissionFactor"), object("transmissionTexture", kSlot)};
-constexpr std::array kVolume{num("thicknessFactor"), num("attenuationDistance"), nums("attenuationColor", 3)};
-constexpr std::array kSpecular{num("specularFactor"), object("specularTexture", kSlot),
-                               nums("specularColorFactor", 3), object("specularColorTexture", kSlot)};
-constexpr std::array kMaterialExtensions{object("KHR_materials_emissive_strength", kEmissiveStrength),
-                                         object("KHR_materials_ior", kIor),
-                                         object("KHR_materials_transmission", kTransmission),
-                                         object("KHR_materials_volume", kVolume),
-                                         object("KHR_materials_specular", kSpecular),
-                                         object("KHR_materials_unlit", {})};
-constexpr std::array kMaterial{text("name"),
-                               object("pbrMetallicRoughness", kPbr),
-                               object("normalTexture", kSlot),
-                               object("occlusionTexture", kSlot),
-                               object("emissiveTexture", kSlot),
-                               nums("emissiveFactor", 3),
-                               text("alphaMode"),
-                               num("alphaCutoff"),
-                               flag("doubleSided"),
-                               object("extensions", kMaterialExtensions)};
+constexpr auto kSampler = forgiving(std::array{code("magFilter", kMagFilters), code("minFilter", kMinFilters),
+                                               code("wrapS", kWraps), code("wrapT", kWraps)});
+constexpr auto kImage =
+    forgiving(std::array{text("uri"), text("mimeType"), index("bufferView", "bufferViews"), text("name")});
+constexpr auto kTexture =
+    forgiving(std::array{index("sampler", "samplers"), index("source", "images"), raw("extensions")});
+constexpr auto kTransform =
+    forgiving(std::array{nums("offset", 2), num("rotation"), nums("scale", 2), size("texCoord")});
+constexpr auto kSlotExtensions = forgiving(std::array{object("KHR_texture_transform", kTransform)});
+constexpr auto kSlot =
+    forgiving(std::array{required(index("index", "textures")), size("texCoord"), num("scale"),
+                         num("strength"), object("extensions", kSlotExtensions)});
+constexpr auto kPbr = forgiving(
+    std::array{colourWithAlpha("baseColorFactor"), object("baseColorTexture", kSlot), num("metallicFactor"),
+               num("roughnessFactor"), object("metallicRoughnessTexture", kSlot)});
+constexpr auto kEmissiveStrength = forgiving(std::array{num("emissiveStrength")});
+constexpr auto kIor = forgiving(std::array{num("ior")});
+constexpr auto kTransmission =
+    forgiving(std::array{num("transmissionFactor"), object("transmissionTexture", kSlot)});
+constexpr auto kVolume =
+    forgiving(std::array{num("thicknessFactor"), num("attenuationDistance"), nums("attenuationColor", 3)});
+constexpr auto kSpecular =
+    forgiving(std::array{num("specularFactor"), object("specularTexture", kSlot),
+                         nums("specularColorFactor", 3), object("specularColorTexture", kSlot)});
+constexpr auto kMaterialExtensions = forgiving(std::array{
+    object("KHR_materials_emissive_strength", kEmissiveStrength), object("KHR_materials_ior", kIor),
+    object("KHR_materials_transmission", kTransmission), object("KHR_materials_volume", kVolume),
+    object("KHR_materials_specular", kSpecular), object("KHR_materials_unlit", {})});
+constexpr auto kMaterial = forgiving(std::array{
+    text("name"), object("pbrMetallicRoughness", kPbr), object("normalTexture", kSlot),
+    object("occlusionTexture", kSlot), object("emissiveTexture", kSlot), nums("emissiveFactor", 3),
+    text("alphaMode"), num("alphaCutoff"), flag("doubleSided"), object("extensions", kMaterialExtensions)});
 constexpr std::array kRoot{required(object("asset", kAsset)),
                            texts("extensionsUsed"),
                            texts("extensionsRequired"),
-                           index("scene", "scenes"),
+                           forgiven(index("scene", "scenes")),
                            objects("scenes", kScene),
                            objects("nodes", kNode),
                            objects("meshes", kMesh),

@@ -17,6 +17,8 @@ struct Field {
   std::size_t length = 0;              ///< numbers: exactly so many; 0: any
   std::span<const int> oneOf = {};     ///< indices without a target: the legal values; empty: any
   bool isRequired = false;
+  bool isForgiven = false;  ///< a flaw within costs a warning and the property, not the file
+  std::size_t least = 0;  ///< numbers, forgiven: so many will do, 1 stands for those that are missing; 0: all
 };
 
 /// The members of the file's root object; everything else hangs on them.

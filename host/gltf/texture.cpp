@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
+#include "gltf/container.h"
 #include "gltf/uri.h"
 #include "image/image_io.h"
 #include "scene/input_error.h"
@@ -32,6 +34,16 @@ std::array<float, 6> transformOf(const Json& t) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {static_cast<float>(c * scale.x),  static_cast<float>(s * scale.y), static_cast<float>(offset.x),
           static_cast<float>(-s * scale.x), static_cast<float>(c * scale.y), static_cast<float>(offset.y)};
+}
+
+/// A picture on disk. OpenImageIO takes what stands behind '?' in a name for arguments: such a file is read
+/// here.
+Image readPicture(const std::filesystem::path& path) {
+  if (path.native().find('?') == std::string::npos) return readImage(path);
+  Bytes bytes;
+  const auto problem = readStart(path, std::numeric_limits<std::uint64_t>::max(), bytes);
+  if (problem) throw InputError(fmt::format("{} {}", path.string(), *problem));
+  return decodeImage(bytes, path.string());
 }
 
 }  // namespace
@@ -115,7 +127,7 @@ Image TextureReader::read(std::size_t image) {
   }
   if (isAbsoluteUri(uri))
     throw InputError(fmt::format("it is at{}; Whittle reads local files only", quotedName(uri)));
-  Image read = readImage(resolveUri(document_.folder, uri));
+  Image read = readPicture(fileOf(document_, uri));
   read.name = uri;
   return read;
 }

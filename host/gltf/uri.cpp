@@ -1,6 +1,7 @@
 // URIs of buffers and images: base64, percent signs, files beside the scene.
 #include "gltf/uri.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
 
@@ -44,6 +45,34 @@ std::optional<std::vector<std::byte>> decodeBase64(std::string_view text) {
   return bytes;
 }
 
+/// Whether `text` begins with `start`, which is in lower case; case does not count in schemes (RFC
+/// 3986, 3.1).
+bool beginsWith(std::string_view text, std::string_view start) {
+  const auto isSame = [](char lower, char c) { return lower == std::tolower(static_cast<unsigned char>(c)); };
+  return text.size() >= start.size() && std::equal(start.begin(), start.end(), text.begin(), isSame);
+}
+
+bool isBase64(std::string_view mediaType) {
+  constexpr std::string_view kEnd = ";base64";
+  return mediaType.size() >= kEnd.size() &&
+         beginsWith(mediaType.substr(mediaType.size() - kEnd.size()), kEnd);
+}
+
+/// "file:///a" and "file://localhost/a" mean /a; "file://a" and "file:a", which many write, a file a here.
+std::string_view withoutFileScheme(std::string_view uri) {
+  constexpr std::string_view kScheme = "file:", kHere = "localhost/";
+  if (!beginsWith(uri, kScheme)) return uri;
+  uri.remove_prefix(kScheme.size());
+  if (!uri.starts_with("//")) return uri;
+  uri.remove_prefix(2);
+  return beginsWith(uri, kHere) ? uri.substr(kHere.size() - 1) : uri;
+}
+
+bool isThere(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored);
+}
+
 std::vector<std::byte> toBytes(std::string_view text) {
   std::vector<std::byte> bytes;
   bytes.reserve(text.size());
@@ -53,11 +82,13 @@ std::vector<std::byte> toBytes(std::string_view text) {
 
 }  // namespace
 
-bool isDataUri(std::string_view uri) { return uri.starts_with("data:"); }
+bool isDataUri(std::string_view uri) { return beginsWith(uri, "data:"); }
 
 bool isAbsoluteUri(std::string_view uri) {
   const std::size_t colon = uri.find(':');
-  if (colon == std::string_view::npos || colon < 2 || isDataUri(uri)) return false;
+  if (colon == std::string_view::npos || colon < 2 || isDataUri(uri) || beginsWith(uri, "file:")) {
+    return false;
+  }
   for (const char c : uri.substr(0, colon)) {
     const bool schemeCharacter =
         std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.';
@@ -71,7 +102,7 @@ std::optional<std::vector<std::byte>> decodeDataUri(std::string_view uri) {
   if (!isDataUri(uri) || comma == std::string_view::npos) return std::nullopt;
   const std::string_view kind = uri.substr(0, comma);
   const std::string_view body = uri.substr(comma + 1);
-  if (!kind.ends_with(";base64")) return toBytes(percentDecode(body));
+  if (!isBase64(kind)) return toBytes(percentDecode(body));
   // Percent-encoded padding ("%3D") is legal in a URI.
   return body.find('%') == std::string_view::npos ? decodeBase64(body) : decodeBase64(percentDecode(body));
 }
@@ -92,12 +123,21 @@ std::string percentDecode(std::string_view text) {
   return out;
 }
 
-std::filesystem::path resolveUri(const std::filesystem::path& folder, std::string_view uri) {
-  const std::filesystem::path decoded = folder / percentDecode(uri);
-  const std::filesystem::path raw = folder / std::string(uri);
-  std::error_code ignored;
-  if (!std::filesystem::exists(decoded, ignored) && std::filesystem::exists(raw, ignored)) return raw;
-  return decoded;
+LocalFile resolveUri(const std::filesystem::path& folder, std::string_view uri) {
+  const std::string_view path = withoutFileScheme(uri);
+  std::vector<std::string> readings;
+  for (const std::string_view text : {uri, path, path.substr(0, path.find_first_of("?#"))}) {
+    readings.push_back(percentDecode(text));
+    readings.emplace_back(text);
+  }
+  for (const std::string& reading : readings) {
+    if (isThere(folder / reading)) return {folder / reading};
+  }
+  for (std::string& reading : readings) {
+    std::replace(reading.begin(), reading.end(), '\\', '/');
+    if (isThere(folder / reading)) return {folder / reading, true};
+  }
+  return {folder / percentDecode(path)};
 }
 
 bool isLfsPointer(std::string_view start) {

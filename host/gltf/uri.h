@@ -1,5 +1,5 @@
-// URIs of glTF buffers and images: data URIs (RFC 2397, base64 of RFC 4648) and percent-encoded relative
-// paths (RFC 3986).
+// URIs of glTF buffers and images: data URIs (RFC 2397, base64 of RFC 4648), percent-encoded relative paths
+// (RFC 3986), file URIs (RFC 8089).
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 namespace whittle::gltf {
 
 bool isDataUri(std::string_view uri);
-/// "http:", "https:" and the like: a scheme of two letters or more in front, and not a data URI.
+/// "http://", "https://" and the like: somewhere else than among the files of this machine.
 bool isAbsoluteUri(std::string_view uri);
 
 /// The bytes of a data URI; nothing if it is malformed.
@@ -21,9 +21,15 @@ std::optional<std::vector<std::byte>> decodeDataUri(std::string_view uri);
 /// %41 to A. A percent sign without two hexadecimal digits stays as it is.
 std::string percentDecode(std::string_view text);
 
-/// The file that a relative URI means, below `folder`. The decoded name, or, if only that
-/// exists, the name as written.
-std::filesystem::path resolveUri(const std::filesystem::path& folder, std::string_view uri);
+struct LocalFile {
+  std::filesystem::path path;
+  bool hadBackslashes = false;  ///< the file has slashes in their places
+};
+
+/// The file that a URI means; relative ones start at `folder`. Of these the first that is there, for names on
+/// disk may hold any of it: the decoded name, the name as written, the path of a "file:" URI, what stands
+/// before '?' and '#'; then the same with slashes for backslashes.
+LocalFile resolveUri(const std::filesystem::path& folder, std::string_view uri);
 
 /// A git-lfs pointer, which stands in for a file that was never fetched.
 bool isLfsPointer(std::string_view start);

@@ -8,6 +8,8 @@ namespace {
 
 double sinSquaredBeyond(double cosI, double eta) { return std::max(0.0, 1 - cosI * cosI) / (eta * eta); }
 
+double schlickWeight(double cosine) { return std::pow(std::clamp(1 - cosine, 0.0, 1.0), 5); }
+
 }  // namespace
 
 bool totallyReflected(double cosI, double eta) { return !(sinSquaredBeyond(cosI, eta) < 1); }
@@ -22,7 +24,7 @@ double dielectricReflectance(double cosI, double eta) {
 }
 
 Vec3 schlick(const Vec3& f0, const Vec3& f90, double cosine) {
-  return f0 + (f90 - f0) * std::pow(std::clamp(1 - cosine, 0.0, 1.0), 5);
+  return f0 + (f90 - f0) * schlickWeight(cosine);
 }
 
 TintedFresnel::TintedFresnel(double ior_, double specular, const Vec3& specularColor)
@@ -32,9 +34,10 @@ TintedFresnel::TintedFresnel(double ior_, double specular, const Vec3& specularC
       f90(specular) {}
 
 Vec3 TintedFresnel::reflectance(double cosI, double eta) const {
-  if (r0 >= 1) return f0;  // ior 0: the reflectance is the specular colour, whatever the angle
-  if (eta != 1 && totallyReflected(cosI, eta)) return Vec3(1);
-  const double rise = (dielectricReflectance(cosI, eta) - r0) / (1 - r0);
+  const bool admitsNothing = r0 >= 1;  // ior 0: its own reflectance is 1 at every angle and gives no rise
+  if (!admitsNothing && eta != 1 && totallyReflected(cosI, eta)) return Vec3(1);
+  const double rise =
+      admitsNothing ? schlickWeight(cosI) : (dielectricReflectance(cosI, eta) - r0) / (1 - r0);
   return glm::clamp(f0 + (f90 - f0) * rise, 0.0, 1.0);  // dense dielectrics dip below r0 on the way up
 }
 

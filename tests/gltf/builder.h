@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "gltf/loader.h"
+#include "image/image_io.h"
 #include "scene/input_error.h"
 
 namespace whittle::test {
@@ -43,6 +44,15 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// A 2×1 picture, red and green, encoded with the library's own writer.
+inline std::string pngBytes() {
+  const TemporaryFolder folder;
+  const std::vector<std::uint8_t> rgb{255, 0, 0, 0, 255, 0};
+  writeRgb8(folder.path() / "a.png", 2, 1, rgb, {});
+  std::ifstream stream(folder.path() / "a.png", std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
 
 inline constexpr int kByte = 5120, kUbyte = 5121, kShort = 5122, kUshort = 5123, kUint = 5125, kFloat = 5126;
 

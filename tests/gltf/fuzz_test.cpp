@@ -22,16 +22,20 @@ GltfBuilder everything() {
                                                                         {"spot", {{"innerConeAngle", 0.1}}},
                                                                         {"extras", Json::object()}}});
   b.push("images", {{"uri", "data:image/png;base64,AAAA"}, {"name", "i"}});
+  b.push("images", {{"uri", "FILE:t\\%20?a#b"}});
+  const std::string png = test::pngBytes();
+  b.push("images", {{"bufferView", b.view(std::vector<char>(png.begin(), png.end()))}});
   b.push("samplers", {{"wrapS", 33071}, {"magFilter", 9728}});
-  b.push("textures", {{"source", 0}, {"sampler", 0}});
+  for (int i = 0; i < 3; ++i) b.push("textures", {{"source", i}, {"sampler", 0}});
   const Json transform{
       {"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", 1}, {"scale", {1, 2}}, {"texCoord", 1}}}};
   b.material(
       {{"name", "m"},
        {"pbrMetallicRoughness",
         {{"baseColorFactor", {1, 1, 1, 1}}, {"baseColorTexture", {{"index", 0}, {"extensions", transform}}}}},
-       {"normalTexture", {{"index", 0}, {"scale", 1}}},
+       {"normalTexture", {{"index", 2}, {"scale", 1}, {"extensions", transform}}},
        {"emissiveFactor", {0, 0, 0}},
+       {"emissiveTexture", {{"index", 1}}},
        {"alphaMode", "MASK"},
        {"extensions",
         {{"KHR_materials_volume",
@@ -54,10 +58,12 @@ GltfBuilder everything() {
                          {{{"mode", 4},
                            {"material", 0},
                            {"indices", b.indices<std::uint16_t>({0, 1, 2})},
-                           {"targets", Json::array({{{"POSITION", b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1})}}})},
+                           {"targets", Json::array({{{"POSITION", b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1})},
+                                                     {"COLOR_0", b.vec3({1, 0, 0, 1, 0, 0, -1, 0, 0})}}})},
                            {"attributes",
                             {{"POSITION", positions},
                              {"NORMAL", b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1})},
+                             {"TANGENT", b.floats("VEC4", 4, {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1})},
                              {"TEXCOORD_0", b.vec2({0, 0, 1, 0, 0, 1})},
                              {"TEXCOORD_1", b.vec2({0, 0, 1, 0, 0, 1})},
                              {"COLOR_0", colours},

@@ -1,11 +1,10 @@
-// Materials, their extensions, textures, samplers and tangents.
+// Materials, their extensions, textures and samplers.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "gltf/builder.h"
-#include "image/image_io.h"
 
 namespace whittle {
 namespace {
@@ -14,15 +13,7 @@ using test::expectNear;
 using test::GltfBuilder;
 using test::Json;
 using test::mentions;
-
-/// A 2×1 picture, red and green, encoded with the library's own writer.
-std::string pngBytes() {
-  const test::TemporaryFolder folder;
-  const std::vector<std::uint8_t> rgb{255, 0, 0, 0, 255, 0};
-  writeRgb8(folder.path() / "a.png", 2, 1, rgb, {});
-  std::ifstream stream(folder.path() / "a.png", std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
+using test::pngBytes;
 
 /// One triangle with both sets of coordinates, material 0, texture 0 of the picture above.
 GltfBuilder textured(const Json& material) {
@@ -225,56 +216,6 @@ TEST(GltfMaterial, OnlyWhatIsUsedIsLoaded) {
   EXPECT_EQ(scene.triangles.at(0).material, 0U);
   EXPECT_EQ(scene.triangles.at(1).material, 1U) << "the default material";
   EXPECT_EQ(scene.materials[1].baseColor, glm::vec4(1));
-}
-
-TEST(GltfTangents, AreGeneratedForAnUprightImage) {
-  GltfBuilder b = textured({{"normalTexture", {{"index", 0}, {"scale", 0.5}}}});
-  const Scene scene = b.load();
-  EXPECT_EQ(scene.materials.at(0).normalScale, 0.5F);
-  ASSERT_EQ(scene.tangents.size(), 3U);
-  // u grows along +X, v along -Y: the image stands upright, so that n × T = +Y is its up.
-  for (const glm::vec4& t : scene.tangents) EXPECT_EQ(t, glm::vec4(1, 0, 0, 1));
-}
-
-TEST(GltfTangents, FollowTheTextureTransform) {
-  GltfBuilder b = textured(
-      {{"normalTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {-1, 1}}}}}}}}});
-  for (const glm::vec4& t : b.load().tangents) EXPECT_EQ(t, glm::vec4(-1, 0, 0, -1));
-}
-
-TEST(GltfTangents, OfTheMeshAreKeptAndMirrored) {
-  GltfBuilder b = textured({{"normalTexture", {{"index", 0}}}});
-  b.json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] =
-      b.floats("VEC4", 4, {0, 2, 0, 1, 0, 2, 0, 1, 0, 2, 0, -1});
-  Scene scene = b.load();
-  ASSERT_EQ(scene.tangents.size(), 3U);
-  EXPECT_EQ(scene.tangents[0], glm::vec4(0, 1, 0, 1));
-  EXPECT_EQ(scene.tangents[2], glm::vec4(0, 1, 0, -1));
-  b.json["nodes"][0]["scale"] = {1, -1, 1};
-  scene = b.load();
-  // n stays +Z, T becomes -Y; the bitangent n × T · w was -X and must still be, the mirror leaves X alone.
-  EXPECT_EQ(scene.tangents[0], glm::vec4(0, -1, 0, -1));
-}
-
-TEST(GltfTangents, MirroredHalvesDoNotCancel) {
-  GltfBuilder b = textured({{"normalTexture", {{"index", 0}}}});
-  // Two triangles that share an edge on the Y axis; u grows away from it on both sides.
-  const int p = b.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0});
-  const int uv = b.vec2({0, 1, 1, 1, 0, 0, 1, 1});
-  const int n = b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
-  b.json["meshes"][0]["primitives"][0] = {
-      {"attributes", {{"POSITION", p}, {"TEXCOORD_0", uv}, {"NORMAL", n}}},
-      {"indices", b.indices<std::uint8_t>({0, 1, 2, 0, 2, 3})},
-      {"material", 0}};
-  const Scene scene = b.load();
-  ASSERT_EQ(scene.triangles.size(), 2U);
-  const Triangle& right = scene.triangles[0];
-  const Triangle& left = scene.triangles[1];
-  for (const std::uint32_t v : {right.v0, right.v1, right.v2})
-    EXPECT_EQ(scene.tangents[v], glm::vec4(1, 0, 0, 1));
-  for (const std::uint32_t v : {left.v0, left.v1, left.v2})
-    EXPECT_EQ(scene.tangents[v], glm::vec4(-1, 0, 0, -1));
-  EXPECT_EQ(scene.positions.size(), 6U);
 }
 
 }  // namespace

@@ -171,6 +171,46 @@ TEST(GltfMesh, NormalisedColoursOfEveryFormat) {
   EXPECT_EQ(scene.colors[9], glm::vec4(1.0F)) << "a mesh without colours";
 }
 
+/// The colours of one triangle; `deltas` of morph target 0 count in full.
+std::vector<glm::vec4> colours(const char* type, const std::vector<float>& base,
+                               const char* deltaType = nullptr, const std::vector<float>& deltas = {}) {
+  GltfBuilder b;
+  Json primitive{{"attributes",
+                  {{"POSITION", b.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0})},
+                   {"COLOR_0", b.floats(type, static_cast<int>(base.size() / 3), base)}}}};
+  if (deltaType) {
+    const int target = b.floats(deltaType, static_cast<int>(deltas.size() / 3), deltas);
+    primitive["targets"] = Json::array({{{"COLOR_0", target}}});
+  }
+  b.node({{"mesh", b.push("meshes", {{"weights", {1}}, {"primitives", Json::array({primitive})}})}});
+  Scene scene = b.load();
+  EXPECT_TRUE(b.notices.warnings.empty());
+  return scene.colors;
+}
+
+TEST(GltfMesh, ColoursAreClamped) {
+  const auto seen = colours("VEC4", {2, 0.5F, -0.5F, 1.5F, 0, 0, 0, -1, 1, 1, 1, 1});
+  EXPECT_EQ(seen.at(0), glm::vec4(1, 0.5F, 0, 1));
+  EXPECT_EQ(seen.at(1), glm::vec4(0, 0, 0, 0));
+  EXPECT_EQ(colours("VEC3", {2, 0.5F, -0.5F, 0, 0, 0, 0, 0, 0}).at(0), glm::vec4(1, 0.5F, 0, 1));
+}
+
+TEST(GltfMesh, ColoursAreClampedAfterMorphing) {
+  const auto seen = colours("VEC4", {1.5F, 0.5F, 0.5F, 1, 0, 0, 0, 0, 0, 0, 0, 0},  //
+                            "VEC4", {-1, 1, -0.75F, -0.5F, 0, 0, 0, 0, 0, 0, 0, 0});
+  EXPECT_EQ(seen.at(0), glm::vec4(0.5F, 1, 0, 0.5F));
+}
+
+TEST(GltfMesh, ColoursAndTheirDeltasMayDifferInComponents) {
+  const auto three = colours("VEC3", {0.25F, 0.25F, 0.25F, 0, 0, 0, 0, 0, 0},  //
+                             "VEC4", {0.5F, 0, 0.25F, -0.25F, 0, 0, 0, 0, 0, 0, 0, 0});
+  EXPECT_EQ(three.at(0), glm::vec4(0.75F, 0.25F, 0.5F, 0.75F));
+  EXPECT_EQ(three.at(1), glm::vec4(0, 0, 0, 1));
+  const auto four = colours("VEC4", {0.25F, 0.25F, 0.25F, 0.5F, 0, 0, 0, 0, 0, 0, 0, 0},  //
+                            "VEC3", {0.5F, 0, 0.25F, 0, 0, 0, 0, 0, 0});
+  EXPECT_EQ(four.at(0), glm::vec4(0.75F, 0.25F, 0.5F, 0.5F));
+}
+
 TEST(GltfMesh, ArraysThatNothingNeedsStayEmpty) {
   GltfBuilder b;
   const int uv = b.vec2({0, 0, 1, 0, 0, 1});

@@ -65,8 +65,17 @@ TEST(Fresnel, SpecularExtensionTintsAndDims) {
   for (const double c : {1.0, 0.7, 0.2}) {
     EXPECT_NEAR(plain.reflectance(c, 1.5).x, dielectricReflectance(c, 1.5), 1e-15);
   }
-  EXPECT_EQ(reference::TintedFresnel(0, 1, Vec3(0.25)).reflectance(0.3, 0), Vec3(0.25))
-      << "ior 0: the colour";
+}
+
+TEST(Fresnel, OfIorZeroRisesFromTheColourToTheStrength) {
+  const reference::TintedFresnel tinted(0, 0.5, Vec3(0.25, 1, 30));
+  const double eta = 0;
+  EXPECT_EQ(tinted.reflectance(1, eta), Vec3(0.125, 0.5, 0.5)) << "min(k, 1)·s";
+  EXPECT_NEAR(tinted.reflectance(0.5, eta).x, 0.125 + 0.375 / 32, 1e-15);  // (1 − 0.5)⁵ = 1/32
+  EXPECT_NEAR(tinted.reflectance(0.5, 1 / eta).x, 0.125 + 0.375 / 32, 1e-15) << "the same from behind";
+  EXPECT_EQ(tinted.reflectance(0, eta), Vec3(0.5));
+  const reference::TintedFresnel plain(0, 1, Vec3(1));
+  for (const double c : {1.0, 0.5, 0.0}) EXPECT_EQ(plain.reflectance(c, eta), Vec3(1));
 }
 
 /// A slab of `material` between y = 0 and −1; what comes from above is red, from below green, 1 each.
@@ -198,14 +207,16 @@ TEST(Slab, NestedSolidsMeetWithTheRatioOfTheirIndices) {
   EXPECT_NEAR(facing.items[0].magnitude.x, 0.0036085, 5e-8);
 }
 
-TEST(Slab, IorZeroReflectsItsColour) {
+TEST(Slab, IorZeroReflectsItsColourAndMoreAtAnAngle) {
   Material coated = glass(0, true);
   coated.specularColor = {0.25F, 0.5F, 1};
   Probe probe(slabScene(coated));
   const Ray ray{Vec3(0, 1, 0), glm::normalize(Vec3(1, -1, 0))};
   const auto impulses = reference::impulsesOf(*probe.surfelAlong(ray), -ray.direction);
   ASSERT_EQ(impulses.count, 1) << "nothing is refracted";
-  EXPECT_EQ(impulses.items[0].magnitude, Vec3(0.25, 0.5, 1));
+  const double rise = std::pow(1 - std::sqrt(0.5), 5);
+  const Vec3 expected(0.25 + 0.75 * rise, 0.5 + 0.5 * rise, 1);
+  EXPECT_NEAR(glm::length(impulses.items[0].magnitude - expected), 0, 1e-14);
   coated.roughness = 1;
   Probe rough(slabScene(coated));
   EXPECT_EQ(reference::impulsesOf(*rough.surfelAlong(ray), -ray.direction).count, 0);

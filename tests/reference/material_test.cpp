@@ -190,6 +190,23 @@ TEST(Surface, NormalMapsTiltAlongTheTangents) {
   EXPECT_EQ(Probe(scene).surfelAlong(ray)->n, Vec3(0, 1, 0)) << "no tangent, no map";
 }
 
+TEST(Surface, ASmoothOneOfIorZeroKeepsItsFresnel) {
+  Material m = lambert(glm::vec3(1));
+  m.roughness = 0;
+  m.ior = 0;
+  m.specular = 1;
+  m.specularColor = {0.25F, 0.5F, 0};
+  Scene scene;
+  scene.background.radiance = glm::vec3(1);
+  addFloor(scene, m, 0);
+  Probe probe(scene);
+  // At 60° the mirror shows mix(k, 1, (1 − 1/2)⁵) of a white sky.
+  const Vec3 seen = probe.Li({0, 1, 0}, {std::sqrt(3.0), -1, 0});
+  EXPECT_NEAR(seen.x, 0.25 + 0.75 / 32, 1e-14);
+  EXPECT_NEAR(seen.y, 0.5 + 0.5 / 32, 1e-14);
+  EXPECT_NEAR(seen.z, 1.0 / 32, 1e-14);
+}
+
 TEST(Surface, TheRayOffsetScalesWithTheCoordinates) {
   Scene scene;
   const std::uint32_t m = addMaterial(scene, lambert(glm::vec3(1)));

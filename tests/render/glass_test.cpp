@@ -175,6 +175,27 @@ double reflectedShare(float ior, const glm::dvec3& origin, const glm::dvec3& dir
   return shot(scene, origin, direction, 2).x;
 }
 
+TEST(DeviceFresnel, OfIorZeroRisesFromTheColourToOne) {
+  Material m = glass(0, false);
+  m.transmission = 0;
+  m.baseColor = glm::vec4(0, 0, 0, 1);
+  m.specularColor = {0.25F, 0.5F, 0};
+  Scene scene;
+  scene.background.radiance = glm::vec3(1);
+  addFloor(scene, m, 0);
+  Worst worst;
+  for (const double degrees : {0.0, 60.0, 85.0}) {
+    const double cosine = std::cos(degrees * kDegree), weight = std::pow(1 - cosine, 5);
+    const glm::vec3 seen = shot(scene, {0, 1, 0}, {std::sin(degrees * kDegree), -cosine, 0}, 2);
+    for (int c = 0; c < 3; ++c) {
+      const double f0 = static_cast<double>(m.specularColor[c]);
+      worst.absolute(seen[c], f0 + (1 - f0) * weight);
+    }
+  }
+  record({"20", "ior 0, specular colour k, smooth, three angles", "k + (1 − k)(1 − cos)⁵", worst.result(),
+          worst.error(), "absolute", 1e-6});
+}
+
 TEST(DeviceFresnel, Brewster) {
   const double angle = std::atan(1.5);
   EXPECT_NEAR(angle / kDegree, 56.3099, 5e-5);

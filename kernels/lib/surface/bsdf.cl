@@ -24,18 +24,20 @@ INLINE Real3 dielectricReflectance(const Surfel* s, Real cosine, Mask* total) {
   const Mask opaque = (s->ior == 0.0f) | (r0 >= 1.0f);
   const Real r = fresnelDielectric(cosine, interfaceEta(s), total);
   *total = *total & !opaque;
-  Real3 reflectance = real3(r, r, r);
+  const Real3 reflectance = choose3(opaque, s->specularF0, real3(r, r, r));
 #if HAS(SPECULAR_EXTENSION)
   // Untinted: the bits of the kernels without this extension.
   const Mask plain = (s->specularF90 == 1.0f) & (s->specularF0.x == r0) & (s->specularF0.y == r0) &
                      (s->specularF0.z == r0);
   const Real3 f90 = real3(s->specularF90, s->specularF90, s->specularF90);
-  const Real3 scaled = add3(s->specularF0, scale3((r - r0) / (1.0f - r0), sub3(f90, s->specularF0)));
+  // Where nothing enters, r is 1 at every angle and gives no rise.
+  const Real rise = opaque ? schlickWeight(cosine) : (r - r0) / (1.0f - r0);
+  const Real3 tinted = add3(s->specularF0, scale3(rise, sub3(f90, s->specularF0)));
   // Dense dielectrics dip below R0.
-  reflectance = choose3(plain | *total, reflectance,
-                        real3(clampUnit(scaled.x), clampUnit(scaled.y), clampUnit(scaled.z)));
+  return choose3(plain | *total, reflectance, real3(clampUnit(tinted.x), clampUnit(tinted.y), clampUnit(tinted.z)));
+#else
+  return reflectance;
 #endif
-  return choose3(opaque, s->specularF0, reflectance);
 }
 
 /// f(w_i, w_o), 1/sr, without impulses; both directions on the side of n.

@@ -42,7 +42,7 @@ Vec3 directLight(const World& world, const Sample& sample, const Surfel& surfel,
 /// Impulses have a limit, what goes straight on another. Surfaces that do both would make thousands of rays
 /// of one: after as many of them as there are bounces, impulses that carry little are not followed.
 bool isFollowed(const Settings& settings, const Impulse& impulse, const Step& step, const Vec3& share) {
-  constexpr double kLittle = 1.0 / 64;
+  constexpr double kLittle = 1.0 / 8;
   if (impulse.straight) return step.passed < settings.transparentBounces;
   const bool hasBranched = step.bounce + step.branched >= settings.bounces;
   return step.bounce < settings.bounces && !(hasBranched && maxComponent(share) < kLittle);

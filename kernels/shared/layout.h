@@ -170,7 +170,7 @@ WHITTLE_STRUCT(Batch) {
 // A surface that both reflects and lets straight on makes two rays of one, and a stack of them would make thousands: an
 // impulse is followed only if there would be a bounce for it had those passages been bounces, or if it still carries
 // this share of the picture, which few can.
-#define BRANCH_SHARE 0.015625f
+#define BRANCH_SHARE 0.125f
 
 // Hits: triangle in leaf order (uint bits, NO_HIT), barycentrics b1, b2, distance (m). Only TEXTURES,
 // ABSORPTION and AOVS ask how far away a hit is; without them the queue ends before that.

@@ -61,11 +61,16 @@ TEST(SceneUseMaterials, AlikeInEveryBitBecomeOne) {
   other.occlusionStrength = 0.25F;
   other.occlusionTexture = reading(0);
   other.alphaCutoff = 0.1F;  // of a mode that does not cut
-  other.doubleSided = true;  // of a surface that does not emit
   other.emissionTexture = reading(0);
   other.normalScale = 3;
   other.sigma_a = {1, 2, 3};  // of no volume
   EXPECT_EQ(keptOf(plain, other), 1U);
+  Material pane = plain, twoSided = plain;
+  pane.transmission = twoSided.transmission = 0.5F;  // both sides are seen in any case, and none emits
+  twoSided.doubleSided = true;
+  EXPECT_EQ(keptOf(pane, twoSided), 1U);
+  twoSided.transmission = pane.transmission = 0;
+  EXPECT_EQ(keptOf(pane, twoSided), 2U) << "one hides its back";
   other.roughness = std::nextafter(plain.roughness, 2.0F);
   EXPECT_EQ(keptOf(plain, other), 2U);
 }

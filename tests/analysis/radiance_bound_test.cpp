@@ -102,13 +102,14 @@ TEST(RadianceBound, NoRayBringsMore) {
   for (int s = 0; s < 60; ++s) {
     Settings settings;
     settings.mirrorRoughness = s % 3 == 0 ? 0.05F : 0.2F;
+    settings.transparentBounces = 2;  // hits besides the bounces
     Scene scene = anyScene(rng);
     if (s % 4 == 0) scene.lights.clear();
-    const auto bounds = radianceBounds(scene, settings, 5);
+    const auto bounds = radianceBounds(scene, settings, 5 + settings.transparentBounces);
     for (const int bounces : {1, 2, 5}) {
       settings.bounces = bounces;
       Probe probe(scene, settings);
-      const glm::dvec3 bound = bounds[static_cast<std::size_t>(bounces)];
+      const glm::dvec3 bound = bounds[static_cast<std::size_t>(bounces + settings.transparentBounces)];
       for (int i = 0; i < 300; ++i) {
         const Vec3 seen = probe.Li(rng.inBox(1.5F), rng.direction());
         for (int c = 0; c < 3; ++c) {

@@ -118,7 +118,9 @@ Scene loaded(const test::TriangleMesh& mesh, test::GltfBuilder& file) {
   for (const glm::uvec3& t : mesh.triangles) corners.insert(corners.end(), {t.x, t.y, t.z});
   file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", file.vec3(positions)}}},
                                  {"indices", file.indices<std::uint32_t>(corners)}})}});
-  return file.load();
+  Scene scene = file.load();
+  for (Material& m : scene.materials) m.doubleSided = true;  // the search's two sides are compared
+  return scene;
 }
 
 /// Those with a coordinate beyond 1.8e18 never reach a search: the loader drops them, counts and says so.

@@ -45,11 +45,11 @@ TEST(BoundedMemory, NestedGlassSixteenDeep) {
   EXPECT_GT(large.stats.rays.impulse, 10U * 64 * 36) << "or there is nothing to cut";
 }
 
-/// Sheets of dense glass one above the other: every hit reflects and lets through, so that a ray becomes
+/// Faces of dense solids one above the other: every hit reflects and refracts, so that a ray becomes
 /// 2^(bounces − 1).
 Scene sheets() {
   Scene scene;
-  Material sheet = glass(4, false);
+  Material sheet = glass(4, true);
   sheet.baseColor = {0.9F, 0.95F, 1, 1};
   sheet.emission = {0.2F, 0.1F, 0.15F};  // upwards only
   for (int i = 0; i < 48; ++i) addFloor(scene, sheet, 0.25F * static_cast<float>(i), true, 4);

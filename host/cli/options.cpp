@@ -87,8 +87,14 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
           {"R,G,B|FILE",
            "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr",
            "as the file says"});
-  c.add_flag("--default-lights", o.defaultLights,
-             "add a sun, a fill light and a dim background to a file that has no lights but glows");
+  c.add_flag_callback(
+      "--default-lights", [&o] { o.defaultLights = true; },
+      "light a file that has neither lights nor a background like a studio [where something "
+      "would be dark]");
+  c.add_flag_callback(
+      "--no-default-lights", [&o] { o.defaultLights = false; }, "or never");
+  c.add_flag("--default-background,!--no-default-background", o.defaultBackground,
+             "and put the studio's surroundings there, for smooth surfaces to mirror [on]");
 }
 
 void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
@@ -99,7 +105,16 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
   CLI::Option* camera = addText(c, "--camera", [&s](const std::string& v) { s.camera = v; },
                                 {"NAME|INDEX", "camera of the scene, or the node that has it", s.camera});
   addViewpointOptions(c, o.view, camera);
-  addReal(c, "--exposure", s.exposure, -60, 60, "STOPS", "brightness of .png and .jpg", "0");
+  addText(c, "--exposure",
+          [&s](const std::string& word) {
+            s.exposure = word == "auto"
+                             ? std::nullopt
+                             : std::optional(static_cast<float>(parseReal("--exposure", word, -60, 60)));
+          },
+          {"auto|STOPS", "brightness of .png and .jpg; auto changes it only where the picture does not fit",
+           "auto"});
+  addChoice(c, "--tone-map", s.toneMap,
+            "of .png and .jpg: roll highlights off, or cut them; auto: none where all materials are unlit");
 
   c.option_defaults()->group("Light");
   addWhole(c, "--bounces", s.bounces, 1, 4096, "N", "backward tracing steps; 1 = direct light only");
@@ -184,7 +199,7 @@ Scene loadScene(const SceneOptions& options, Settings& settings, Notices& notice
     load.aspect = static_cast<double>(settings.width) / settings.height;
   if (!options.scene.empty()) load.sceneName = options.scene;
   load.defaultLights = options.defaultLights;
-  load.defaultBackground = options.background.empty();
+  load.defaultBackground = options.defaultBackground && options.background.empty();
   Scene scene = loadGltf(options.file, load, notices);
   settleSize(options, scene, settings);
   applyBackground(scene, options.background);

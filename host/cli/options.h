@@ -16,9 +16,10 @@ namespace whittle::cli {
 /// Where the scene comes from and what surrounds it.
 struct SceneOptions {
   std::filesystem::path file;
-  std::string scene;           ///< name or index of a scene in the file; empty: the file's default
-  std::string background;      ///< "R,G,B" or an equirectangular image; empty: as the file says
-  bool defaultLights = false;  ///< also where emitters are all that gives light
+  std::string scene;                  ///< name or index of a scene in the file; empty: the file's default
+  std::string background;             ///< "R,G,B" or an equirectangular image; empty: as the file says
+  std::optional<bool> defaultLights;  ///< see LoadOptions
+  bool defaultBackground = true;
   bool quiet = false;
   ViewpointOptions view;
   CLI::Option *width = nullptr, *height = nullptr;  ///< null where the command draws no picture

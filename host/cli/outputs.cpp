@@ -14,6 +14,7 @@
 
 #include "image/tone_map.h"
 #include "scene/input_error.h"
+#include "scene/material_predicates.h"
 #include "scene/whole_file.h"
 
 namespace whittle::cli {
@@ -112,12 +113,34 @@ void OutputCheck::text(const std::string& option, const fs::path& file) {
   claim(option, file);
 }
 
-void writePicture(const fs::path& file, const FloatImage& radiance, float exposure,
+Look lookOf(const FloatImage& radiance, const Scene& scene, const Settings& settings,
+            const std::vector<fs::path>& outputs, bool quiet) {
+  const bool isShown = std::any_of(outputs.begin(), outputs.end(), isToneMapped);
+  const bool isUnlit = !scene.triangles.empty() &&
+                       std::none_of(scene.triangles.begin(), scene.triangles.end(),
+                                    [&](const Triangle& t) { return isLit(scene.materials[t.material]); });
+  Look look;
+  look.rollsOff = settings.toneMap == ToneMap::Auto ? !isUnlit : settings.toneMap == ToneMap::Filmic;
+  if (settings.exposure) {
+    look.stops = *settings.exposure;
+  } else if (isShown && !isUnlit) {
+    look.stops = fittingExposure(radiance);
+    if (look.stops != 0.0F && !quiet)
+      fmt::print(
+          stderr,
+          "note: exposed by {:+.1f} stops, since the picture would be too {}; --exposure 0 leaves it so\n",
+          look.stops, look.stops > 0.0F ? "dark" : "bright");
+  }
+  return look;
+}
+
+void writePicture(const fs::path& file, const FloatImage& radiance, const Look& look,
                   const ImageMetadata& metadata) {
   if (isExr(file))
     writeExr(file, radiance, metadata);
   else
-    writeRgb8(file, radiance.width, radiance.height, toneMap(radiance, exposure), metadata);
+    writeRgb8(file, radiance.width, radiance.height, toneMap(radiance, look.stops, nullptr, look.rollsOff),
+              metadata);
 }
 
 bool isToneMapped(const fs::path& file) { return hasExtension(file, {".png", ".jpg", ".jpeg"}); }

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "image/image_io.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
 
 namespace whittle::cli {
 
@@ -41,8 +43,19 @@ class OutputCheck {
   bool standardOutputUsed_ = false;
 };
 
-/// .exr: linear floats; .png/.jpg: tone-mapped at `exposure` stops. `metadata` goes into the file.
-void writePicture(const std::filesystem::path& file, const FloatImage& radiance, float exposure,
+/// How radiance becomes codes.
+struct Look {
+  float stops = 0.0F;
+  bool rollsOff = true;
+};
+
+/// What the settings leave to picture and scene; a note on standard error where stops were chosen and one of
+/// the outputs shows them, unless `quiet`.
+Look lookOf(const FloatImage& radiance, const Scene& scene, const Settings& settings,
+            const std::vector<std::filesystem::path>& outputs, bool quiet);
+
+/// .exr: linear floats; .png/.jpg: tone-mapped. `metadata` goes into the file.
+void writePicture(const std::filesystem::path& file, const FloatImage& radiance, const Look& look,
                   const ImageMetadata& metadata);
 
 /// Whether a picture's extension is of a format that holds tone-mapped colours, not radiance: .png, .jpg.

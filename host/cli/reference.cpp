@@ -63,7 +63,8 @@ void writeResults(const ReferenceOptions& o, const Scene& scene, const Reference
   const ImageMetadata metadata{{"whittle:settings", settingsToJson(o.settings).dump()},
                                {"whittle:scene", o.scene.file.filename().string()},
                                {"whittle:reference", "double precision"}};
-  for (const auto& file : o.outputs) writePicture(file, result.radiance, o.settings.exposure, metadata);
+  const Look look = lookOf(result.radiance, scene, o.settings, o.outputs, o.scene.quiet);
+  for (const auto& file : o.outputs) writePicture(file, result.radiance, look, metadata);
   for (const auto& aov : o.aovs)
     writeExr(aov.file, aov.name == "depth" ? result.depth : result.primitive, metadata);
   if (!o.stats.empty()) writeTextFile(o.stats, statsText(o, scene, result, seconds));

@@ -125,7 +125,7 @@ std::string statsText(const RenderOptions& o, const Stats& stats) {
   };
   s["scene"] = path(o.scene.scene);
   s["background"] = path(o.scene.background);
-  s["defaultLights"] = o.scene.defaultLights;
+  s["defaultLights"] = o.scene.defaultLights.value_or(false);
   s["output"] = nlohmann::ordered_json::array();
   for (const auto& file : o.outputs) s["output"].push_back(file.string());
   s["aov"] = o.aovTexts;
@@ -138,11 +138,14 @@ std::string statsText(const RenderOptions& o, const Stats& stats) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-void writeResults(const RenderOptions& o, RenderResult& result, Clock::time_point start, Trace* trace) {
+void writeResults(const RenderOptions& o, const Scene& scene, RenderResult& result, Clock::time_point start,
+                  Trace* trace) {
   const HoldSignals whole;
   const auto writing = Clock::now();
+  const Look look = lookOf(result.radiance, scene, o.settings, o.outputs, o.scene.quiet);
+  result.stats.settings.exposure = look.stops;
   const ImageMetadata metadata = pictureMetadata(o, result.stats);
-  for (const auto& file : o.outputs) writePicture(file, result.radiance, o.settings.exposure, metadata);
+  for (const auto& file : o.outputs) writePicture(file, result.radiance, look, metadata);
   for (const auto& aov : o.aovs) writeExr(aov.file, result.aovs.at(aov.name), metadata);
   result.stats.time.write = since(writing);
   result.stats.phases.push_back({"write", steadySeconds(writing), result.stats.time.write});
@@ -190,7 +193,7 @@ void runRender(RenderOptions& o) {
         stderr,
         "warning: no bound on what --cutoff left out: a light lies on a surface that scatters it, or a "
         "factor of a material is outside its range\n");
-  writeResults(o, result, start, trace.get());
+  writeResults(o, scene, result, start, trace.get());
   report(o, result.stats);
 }
 

@@ -29,7 +29,8 @@ std::uint8_t encodeByte(const CodeBorders& borders, double v) {
 }
 
 /// Writes one pixel; false if it was not finite.
-bool mapPixel(const CodeBorders& borders, const float* in, int channels, double scale, std::uint8_t* out) {
+bool mapPixel(const CodeBorders& borders, const float* in, int channels, double scale, bool rollsOff,
+              std::uint8_t* out) {
   const std::size_t step = channels >= 3 ? 1 : 0;
   std::array<double, 3> c{};
   double peak = 0;
@@ -42,6 +43,10 @@ bool mapPixel(const CodeBorders& borders, const float* in, int channels, double 
     }
     c[k] = std::max(0.0, v * scale);
     peak = std::max(peak, c[k]);
+  }
+  if (!rollsOff) {
+    for (int k = 0; k < 3; ++k) out[k] = encodeByte(borders, std::min(c[k], 1.0));
+    return true;
   }
   const double mapped = rollOff(peak);
   const double ratio = peak > 0 ? mapped / peak : 1;
@@ -60,7 +65,34 @@ double rollOff(double v) {
 double srgbEncode(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 double srgbDecode(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
-std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops, std::uint64_t* nonFinite) {
+float fittingExposure(const FloatImage& image) {
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
+  const auto channels = static_cast<std::size_t>(image.channels);
+  std::vector<double> luminance;
+  luminance.reserve(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const float* p = &image.pixels[i * channels];
+    const double v =
+        channels >= 3 ? 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2] : static_cast<double>(p[0]);
+    if (std::isfinite(v) && v > 0) luminance.push_back(v);
+  }
+  if (luminance.empty()) return 0;
+  std::sort(luminance.begin(), luminance.end());
+  constexpr double kDark = 1e-6;
+  const auto first = std::lower_bound(luminance.begin(), luminance.end(), kDark * luminance.back());
+  const auto count = static_cast<double>(luminance.end() - first);
+  double logs = 0, burnt = 0;
+  for (auto v = first; v != luminance.end(); ++v) logs += std::log2(*v), burnt += *v > 1 ? 1 : 0;
+  const double middle = logs / count;                                          // stops
+  constexpr double kLeast = -5.643856189774724, kWanted = -2.473931188332412;  // log2 of 1/50 and of 0.18
+  if (middle >= kLeast && middle <= 0 && burnt <= 0.25 * count) return 0;
+  const double bright = std::log2(*(first + static_cast<std::ptrdiff_t>(0.98 * (count - 1))));
+  const double stops = std::min(kWanted - middle, 1 - bright);
+  return static_cast<float>(std::clamp(std::round(10 * stops) / 10, -60.0, 60.0));
+}
+
+std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops, std::uint64_t* nonFinite,
+                                  bool rollsOff) {
   const CodeBorders borders = makeBorders();
   const double scale = std::exp2(static_cast<double>(exposureStops));
   const std::size_t width = image.width;
@@ -70,7 +102,7 @@ std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops, 
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t pixel = y * width + x;
       const float* in = &image.pixels[pixel * image.channels];
-      if (!mapPixel(borders, in, image.channels, scale, &bytes[pixel * 3])) ++badInRow[y];
+      if (!mapPixel(borders, in, image.channels, scale, rollsOff, &bytes[pixel * 3])) ++badInRow[y];
     }
   });
   if (nonFinite != nullptr) {

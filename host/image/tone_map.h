@@ -19,12 +19,20 @@ double rollOff(double v);
 double srgbEncode(double v);
 double srgbDecode(double v);
 
-/// Width·height·3 bytes. The largest of the three channels goes through rollOff and the other two are scaled
-/// with it, so that hue stays where single channels would clip; what the roll-off takes away is given back as
-/// a slow fade to white. Two or fewer channels are grey, a fourth is left out. A pixel that is not finite
-/// becomes magenta (255, 0, 255) and is counted in `nonFinite` if given; negative values are 0. Rounds to the
-/// nearest code; the same bytes for any number of threads.
+/// Stops that make a picture fit: 0 where it does. One fits if the middle of what is not black (its geometric
+/// mean luminance) lies between 1/50 and 1, and no more than a quarter of it is brighter than white.
+/// Otherwise that middle becomes 18 %, but the brightest 2 % stay within a stop above white; tenths of a
+/// stop. Pixels that are not finite, or a millionth of the brightest and less, do not count. The same for any
+/// number of threads.
+float fittingExposure(const FloatImage& image);
+
+/// Width·height·3 bytes. With `rollsOff` the largest of the three channels goes through rollOff and the other
+/// two are scaled with it, so that hue stays where single channels would clip; what the roll-off takes away
+/// is given back as a slow fade to white. Two or fewer channels are grey, a fourth is left out. A pixel that
+/// is not finite becomes magenta (255, 0, 255) and is counted in `nonFinite` if given; negative values are 0.
+/// Rounds to the nearest code; the same bytes for any number of threads. Without it channels above 1 are cut:
+/// codes of an 8-bit texture come out as they went in.
 std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops,
-                                  std::uint64_t* nonFinite = nullptr);
+                                  std::uint64_t* nonFinite = nullptr, bool rollsOff = true);
 
 }  // namespace whittle

@@ -12,6 +12,7 @@ enum class Search : std::uint8_t { Auto, Tree, Array };
 enum class Sampler : std::uint8_t { Random, Stratified, Sobol };
 enum class ImpulseMode : std::uint8_t { All, One };
 enum class Lanes : std::uint8_t { Auto, One, Sixteen };
+enum class ToneMap : std::uint8_t { Auto, None, Filmic };
 enum class BackFaces : std::uint8_t { Cull, Show };
 
 /// What a value is called on the command line and in the statistics.
@@ -26,6 +27,9 @@ inline constexpr Word<Sampler> kSamplerWords[]{
     {"random", Sampler::Random}, {"stratified", Sampler::Stratified}, {"sobol", Sampler::Sobol}};
 inline constexpr Word<ImpulseMode> kImpulseWords[]{{"all", ImpulseMode::All}, {"one", ImpulseMode::One}};
 inline constexpr Word<Lanes> kLanesWords[]{{"auto", Lanes::Auto}, {"1", Lanes::One}, {"16", Lanes::Sixteen}};
+inline constexpr Word<ToneMap> kToneMapWords[]{
+    {"auto", ToneMap::Auto}, {"none", ToneMap::None}, {"filmic", ToneMap::Filmic}};
+constexpr const auto& wordsOf(ToneMap) { return kToneMapWords; }
 inline constexpr Word<BackFaces> kBackFacesWords[]{{"cull", BackFaces::Cull}, {"show", BackFaces::Show}};
 constexpr const auto& wordsOf(BackFaces) { return kBackFacesWords; }
 constexpr const auto& wordsOf(Search) { return kSearchWords; }
@@ -63,9 +67,10 @@ struct Settings {
   double timeLimit = 0.0;          ///< seconds of rendering, but one ray for each pixel at least; 0: none
   double targetError = 0.0;  ///< W/(m² sr): stop once the picture's estimated RMSE is at most this; 0: never
   double targetErrorRelative =
-      0.0;                ///< the same, as a share of the picture's mean radiance; goes before targetError
-  bool aovs = false;      ///< keep depth, normal, albedo and primitive of each pixel's first sample
-  float exposure = 0.0F;  ///< stops, for .png/.jpg only
+      0.0;            ///< the same, as a share of the picture's mean radiance; goes before targetError
+  bool aovs = false;  ///< keep depth, normal, albedo and primitive of each pixel's first sample
+  std::optional<float> exposure;  ///< stops, for .png/.jpg only; unset: chosen where the picture does not fit
+  ToneMap toneMap = ToneMap::Auto;  ///< for .png/.jpg only
 };
 
 /// Calls visit("name", member) for every setting that the statistics carry, in their order. The option is
@@ -77,6 +82,7 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("height", s.height);
   visit("camera", s.camera);
   visit("exposure", s.exposure);
+  visit("toneMap", s.toneMap);
   visit("bounces", s.bounces);
   visit("transparentBounces", s.transparentBounces);
   visit("backFaces", s.backFaces);

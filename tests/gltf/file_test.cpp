@@ -186,18 +186,27 @@ TEST(GltfDefaults, ATriangleIsSeenFromItsFront) {
   EXPECT_NEAR(c.position.y, 0.5F, 1e-6);
   // The height 1 with a margin of a tenth: 0.5 · 1.1 / tan(0.35).
   EXPECT_NEAR(c.position.z, 0.55 / std::tan(0.35), 1e-5);
-  ASSERT_EQ(scene.lights.size(), 2U);
+  ASSERT_EQ(scene.lights.size(), 3U);
   EXPECT_TRUE(scene.lights[0].castsShadows);
   EXPECT_FALSE(scene.lights[1].castsShadows);
   for (const Light& l : scene.lights) {
     EXPECT_EQ(l.kind, LightKind::Directional);
     EXPECT_NEAR(glm::length(l.direction), 1.0F, 1e-6F);
-    EXPECT_LT(l.direction.z, 0) << "from behind the camera";
+    EXPECT_EQ(l.direction.z < 0, &l != &scene.lights[2]) << "from behind the camera, but for the rim";
     EXPECT_LT(l.direction.y, 0) << "from above";
   }
   EXPECT_GT(scene.lights[0].direction.x, 0) << "from the left";
   EXPECT_LT(scene.lights[1].direction.x, 0) << "from the right";
-  EXPECT_NE(scene.background.radiance, glm::vec3(0));
+  // A soft box stands where the key light comes from.
+  const Background& b0 = scene.background;
+  ASSERT_EQ(b0.map.size(), std::size_t{3} * b0.width * b0.height);
+  const glm::dvec3 key(-scene.lights[0].direction);
+  const double u = 0.5 + std::atan2(key.x, -key.z) / (2 * std::numbers::pi),
+               v = std::acos(key.y) / std::numbers::pi;
+  const auto texel =
+      3 * (static_cast<std::size_t>(v * b0.height) * b0.width + static_cast<std::size_t>(u * b0.width));
+  EXPECT_GT(b0.map[texel], 4) << "the key's";
+  EXPECT_LT(b0.map[0] + b0.map[b0.map.size() - 1], 2);
   EXPECT_EQ(b.notices.notes.size(), 2U);
 }
 
@@ -235,16 +244,17 @@ TEST(GltfDefaults, EveryBoxIsFramed) {
 }
 
 TEST(GltfDefaults, LightsAreAddedOnlyWhereNothingShines) {
-  const auto lightsWith = [](const Json& material, const Json& extras, bool always = false) {
+  const auto lightsWith = [](const Json& material, const Json& extras, std::optional<bool> asked = {}) {
     GltfBuilder b;
     b.material(material);
     b.node({{"mesh", b.triangleMesh({{"material", 0}})}});
     b.json["scenes"][0]["extras"] = extras;
-    return b.load({.sceneName = {}, .defaultLights = always});
+    return b.load({.sceneName = {}, .defaultLights = asked});
   };
-  EXPECT_EQ(lightsWith({{"emissiveFactor", {0, 1, 0}}}, Json::object(), true).lights.size(), 2U)
+  EXPECT_EQ(lightsWith({{"emissiveFactor", {0, 1, 0}}}, Json::object(), true).lights.size(), 3U)
       << "asked for";
-  EXPECT_EQ(lightsWith(Json::object(), Json::object()).lights.size(), 2U);
+  EXPECT_EQ(lightsWith(Json::object(), Json::object()).lights.size(), 3U);
+  EXPECT_EQ(lightsWith(Json::object(), Json::object(), false).lights.size(), 0U) << "not wanted";
   EXPECT_EQ(lightsWith({{"emissiveFactor", {0, 1, 0}}}, Json::object()).lights.size(), 0U);
   EXPECT_EQ(
       lightsWith({{"extensions", {{"KHR_materials_unlit", Json::object()}}}}, Json::object()).lights.size(),
@@ -252,8 +262,8 @@ TEST(GltfDefaults, LightsAreAddedOnlyWhereNothingShines) {
   const Scene lit = lightsWith(Json::object(), {{"whittle", {{"background", {0.5, 1, 2}}}}});
   EXPECT_EQ(lit.lights.size(), 0U);
   expectNear(lit.background.radiance, {0.5F, 1, 2}, 0);
-  EXPECT_EQ(lightsWith(Json::object(), {{"whittle", {{"background", "blue"}}}}).lights.size(), 2U);
-  EXPECT_EQ(lightsWith(Json::object(), "anything").lights.size(), 2U);
+  EXPECT_EQ(lightsWith(Json::object(), {{"whittle", {{"background", "blue"}}}}).lights.size(), 3U);
+  EXPECT_EQ(lightsWith(Json::object(), "anything").lights.size(), 3U);
 }
 
 TEST(GltfDefaults, NothingAtAllStillLoads) {

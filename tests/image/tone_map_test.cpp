@@ -85,5 +85,27 @@ TEST(ToneMap, takesGreyAndLeavesAlphaOut) {
   EXPECT_EQ(toneMap({1, 2, 4, {0.5F, 0, 0.5F, 0.1F, 0, 0.5F, 0, 1}}, 0), (Bytes{188, 0, 188, 0, 188, 0}));
 }
 
+FloatImage grey(const std::vector<float>& values) { return {static_cast<int>(values.size()), 1, 1, values}; }
+
+TEST(ToneMap, ExposureIsChosenOnlyWhereThePictureDoesNotFit) {
+  EXPECT_EQ(fittingExposure(grey({0, 0.1F, 0.3F, 0.8F, 2})), 0);
+  EXPECT_EQ(fittingExposure(grey({0, 0, 0})), 0);
+  EXPECT_EQ(fittingExposure(grey({NAN, INFINITY, 0.2F})), 0);
+  // All of one value: that becomes 18 %.
+  EXPECT_NEAR(fittingExposure(grey({1000, 1000, 1000, 0})), std::log2(0.18 / 1000), 0.051);
+  EXPECT_NEAR(fittingExposure(grey({1e-4F, 1e-4F})), std::log2(0.18 / 1e-4), 0.051);
+  // Highlights are kept: half the picture is 1, half 1e5, which must not go beyond 2.
+  const float stops = fittingExposure(grey({1, 1, 1e5F, 1e5F}));
+  EXPECT_NEAR(stops, std::log2(2 / 1e5), 0.051);
+}
+
+TEST(ToneMap, WithoutRollOffEachCodeComesOutAsItWentIn) {
+  std::vector<float> values;
+  for (int i = 0; i < 256; ++i) values.push_back(static_cast<float>(srgbDecode(i / 255.0)));
+  const auto bytes = toneMap(grey(values), 0, nullptr, false);
+  for (int i = 0; i < 256; ++i) EXPECT_EQ(bytes[3 * static_cast<std::size_t>(i)], i);
+  EXPECT_EQ(toneMap(grey({7}), 0, nullptr, false)[0], 255);
+}
+
 }  // namespace
 }  // namespace whittle

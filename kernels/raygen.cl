@@ -1,5 +1,5 @@
 // raygen: one eye ray for each slot of the batch, LANES of them for each work item. Writes the ray queue but for
-// the throughput, which is 1.
+// the throughput, which is 1, and, without NEAR_PLANE, what rays have passed, which is nothing.
 //
 // A direction a float's rounding off (3e-8) moves a texture seen at grazing incidence by hundredths of a texel, so the
 // point on the image plane is computed to twice a float's precision, and rounded once.
@@ -111,6 +111,12 @@ __kernel void raygen(
     d = leastTurned(high, low);
   storeReal3(rays, capacity, RAY_O, slot, o);
   storeReal3(rays, capacity, RAY_D, slot, d);
+#if HAS(NEAR_PLANE)
+  // As though they had gone straight through the plane.
+  const Real along = d.x * own.forward[0] + d.y * own.forward[1] + d.z * own.forward[2];
+  STORE(own.znear / along, rays + (size_t)RAY_AFTER_ORDER * capacity + slot);
+  STORE((Real)(0.0f), rays + (size_t)RAY_AFTER_TRIANGLE * capacity + slot);
+#endif
 #if HAS(IMPULSES)
   STORE(AS_REAL(slot + LANE_NUMBERS), rays + (size_t)RAY_SLOT * capacity + slot);
 #endif

@@ -31,7 +31,7 @@ INLINE Arrivals loadArrivals(__global const float* rays, __global const float* h
   a.hit = (LANE_NUMBERS < count - i) & (a.triangle != NO_HIT);
   a.o = loadReal3(rays, capacity, RAY_O, first + i);
   a.d = loadReal3(rays, capacity, RAY_D, first + i);
-#if HAS(TEXTURES) || HAS(ABSORPTION) || HAS(AOVS)
+#if HAS(TEXTURES) || HAS(ABSORPTION) || HAS(AOVS) || HAS(FAR_PLANE)
   a.t = LOAD(hits + (size_t)HIT_T * capacity + i);
 #else
   a.t = (Real)(0.0f);  // nothing asks, and the plane is not there
@@ -62,6 +62,24 @@ INLINE void loadSteps(__global const float* rays, uint entry, uint capacity, uin
   a->bounces = bounces < lastBounce;
   a->goesOn = (steps & (STEP_BRANCHED - 1)) / STEP_STRAIGHT < transparentBounces;
   a->hasBranched = bounces + steps / STEP_BRANCHED >= lastBounce;
+}
+#endif
+
+#if HAS(FAR_PLANE)
+/// Nothing is seen beyond the far plane: of rays that come from the eye, straight on.
+INLINE void endAtFarPlane(const RenderConstants* constants, __global const float* rays, uint entry, uint capacity,
+                          uint bounce, Arrivals* a) {
+  const Real depth = a->t * dot3(a->d, real3(constants->forward[0], constants->forward[1], constants->forward[2]));
+  Mask beyond = depth > constants->zfar;
+  if (bounce > 1) {
+#if HAS(STRAIGHT)
+    const Natural steps = AS_NATURAL(LOAD(rays + (size_t)RAY_STEPS * capacity + entry));
+    beyond = beyond & ((steps & (STEP_STRAIGHT - 1)) == 1u);
+#else
+    return;
+#endif
+  }
+  a->hit = a->hit & !beyond;
 }
 #endif
 
@@ -297,9 +315,14 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;
   const RenderConstants own = constants;
-#if HAS(STRAIGHT)
+#if HAS(STRAIGHT) || HAS(FAR_PLANE)
   Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
+#if HAS(STRAIGHT)
   loadSteps(rays, first + i, capacity, bounce, lastBounce, own.transparentBounces, &a);
+#endif
+#if HAS(FAR_PLANE)
+  endAtFarPlane(&own, rays, first + i, capacity, bounce, &a);
+#endif
 #else
   const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
 #endif
@@ -366,9 +389,14 @@ __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const u
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;
   const RenderConstants own = constants;
-#if HAS(STRAIGHT)
+#if HAS(STRAIGHT) || HAS(FAR_PLANE)
   Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
+#if HAS(STRAIGHT)
   loadSteps(rays, first + i, capacity, bounce, 0, 0, &a);
+#endif
+#if HAS(FAR_PLANE)
+  endAtFarPlane(&own, rays, first + i, capacity, bounce, &a);
+#endif
 #else
   const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
 #endif

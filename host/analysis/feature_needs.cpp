@@ -74,6 +74,7 @@ std::vector<FeatureNeed> otherNeeds() {
       {F::ALPHA_BLEND, {F::IMPULSES}},
       {F::ALPHA_BLEND, {F::STRAIGHT}},
       {F::STRAIGHT, {F::IMPULSES}},
+      {F::NEAR_PLANE, {F::STRAIGHT}},
       {F::BOTH_BRANCHES, {F::IMPULSES}},
       {F::ONE_IMPULSE, {F::IMPULSES}},
       {F::CUTOFF, {F::IMPULSES}},

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "analysis/feature_needs.h"
+#include "scene/camera.h"
 #include "scene/material_predicates.h"
 
 namespace whittle {
@@ -47,7 +48,14 @@ class Needs {
   }
   bool bounces() const { return settings.bounces > 1 && anyMaterial(canSendImpulses); }
   bool straight() const { return anyMaterial(goesStraightOn); }
-  bool impulses() const { return bounces() || straight(); }
+  /// Null in scenes by hand that have none.
+  const Camera* camera() const {
+    return scene.cameras.empty() ? nullptr : &scene.cameras[findCamera(scene, settings.camera)];
+  }
+  bool nearPlane() const {
+    return camera() && nearPlaneCuts(scene, *camera(), static_cast<double>(settings.width) / settings.height);
+  }
+  bool impulses() const { return bounces() || straight() || nearPlane(); }
   bool shadows() const {
     return settings.shadows && lit() && anyLight([](const Light& l) { return l.castsShadows; });
   }
@@ -136,7 +144,8 @@ std::vector<Question> impulseQuestions(const Needs& n) {
                                                    : "no material is smooth, transmits or blends";
   return {
       {F::IMPULSES, n.impulses(), none, n.settings.bounces <= 1},
-      {F::STRAIGHT, n.straight(), "no surface lets light straight on", n.settings.bounces <= 1},
+      {F::STRAIGHT, n.straight() || n.nearPlane(), "no surface lets light straight on",
+       n.settings.bounces <= 1},
       {F::ONE_SIDED, n.settings.backFaces == BackFaces::Cull && n.anyMaterial(showsFrontOnly),
        n.settings.backFaces == BackFaces::Cull ? "every surface has two sides" : "back faces are shown",
        true},
@@ -174,6 +183,9 @@ std::vector<Question> cameraQuestions(const Needs& n) {
       {F::SAMPLER_RANDOM, sampler(Sampler::Random), one},
       {F::SAMPLER_STRATIFIED, sampler(Sampler::Stratified), one},
       {F::SAMPLER_SOBOL, sampler(Sampler::Sobol), one},
+      {F::NEAR_PLANE, n.nearPlane(), "nothing lies before the near plane", true},
+      {F::FAR_PLANE, n.settings.clipFar && n.camera() && std::isfinite(n.camera()->zfar),
+       n.settings.clipFar ? "the camera has no far plane" : "the far plane is not asked for", true},
       {F::FIXED_RAY_OFFSET, n.settings.rayOffset.has_value(), "the ray offset is derived at each hit"},
       {F::AOVS, n.settings.aovs, "no auxiliary output was asked for", true},
   };

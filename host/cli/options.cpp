@@ -122,6 +122,8 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
            "surfaces that a ray may pass straight on, besides its bounces: blended or clear ones");
   addChoice(c, "--back-faces", s.backFaces,
             "backs of single-sided surfaces that light does not pass; shadow rays meet them in any case");
+  c.add_flag("--clip-far", s.clipFar,
+             "show nothing beyond the camera's zfar; many tools write one that means nothing [off]");
   addReal(c, "--cutoff", s.cutoff, 0, kLargestCutoff, "T",
           "trace no mirror or glass ray whose share of the picture (throughput) is at most this in every "
           "colour; --stats says what that can cost (biasBound beside meanRadiance)",
@@ -202,6 +204,8 @@ Scene loadScene(const SceneOptions& options, Settings& settings, Notices& notice
   load.defaultBackground = options.defaultBackground && options.background.empty();
   Scene scene = loadGltf(options.file, load, notices);
   settleSize(options, scene, settings);
+  if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))
+    notices.note("something lies beyond the camera's zfar; --clip-far leaves it out");
   applyBackground(scene, options.background);
   for (const auto& text : notices.warnings) fmt::print(stderr, "warning: {}\n", text);
   if (!options.quiet)

@@ -115,12 +115,14 @@ bool isFiniteInSinglePrecision(const Vec3& v) { return isFinite(Vec3(glm::vec3(v
 
 }  // namespace
 
-std::optional<Hit> nearestSurface(const World& world, const Ray& ray, const std::optional<Hit>& after) {
+std::optional<Hit> nearestSurface(const World& world, const Ray& ray, const std::optional<Hit>& after,
+                                  double nearest) {
   constexpr double kCoats = 1 + 0x1p-19;  // what comes before a hit lies before this much of its distance
   std::optional<Hit> best;
   world.triangles.visitHits(ray, std::numeric_limits<double>::infinity(), [&](const Hit& hit) {
-    if ((!after || isBefore(world, *after, hit)) && (!best || isBefore(world, hit, *best)) &&
-        showsSide(world, ray, hit) && passesMask(world.scene, hit) && dimsHere(world, ray, hit))
+    if (orderOf(world, hit) > nearest && (!after || isBefore(world, *after, hit)) &&
+        (!best || isBefore(world, hit, *best)) && showsSide(world, ray, hit) &&
+        passesMask(world.scene, hit) && dimsHere(world, ray, hit))
       best = hit;
     return best ? best->t * kCoats : std::numeric_limits<double>::infinity();
   });
@@ -154,7 +156,13 @@ Vec3 visibility(const World& world, const Surfel& surfel, const Vec3& w_i, doubl
 
 Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& step, const Vec3& throughput,
         std::optional<Hit>* seen) {
-  const std::optional<Hit> hit = nearestSurface(world, ray, step.after);
+  // The camera's planes concern what the eye sees, straight on.
+  const double along = glm::dot(ray.direction, Vec3(world.camera.forward));
+  const bool fromEye = step.bounce == 1;
+  std::optional<Hit> hit =
+      nearestSurface(world, ray, step.after, fromEye ? static_cast<double>(world.camera.znear) / along : 0);
+  if (hit && fromEye && world.settings.clipFar && hit->t * along > static_cast<double>(world.camera.zfar))
+    hit.reset();
   if (seen) *seen = hit;
   if (!hit) return backgroundRadiance(world.scene.background, ray.direction);
   const Surfel surfel = makeSurfel(world.scene, world.settings, world.triangles, ray, *hit);

@@ -35,7 +35,9 @@ struct Step {
 
 /// The first surface after `after`, in the order of README.md, that alpha masks and back faces leave
 /// standing.
-std::optional<Hit> nearestSurface(const World& world, const Ray& ray, const std::optional<Hit>& after = {});
+/// `nearest`: metres, before which nothing is met.
+std::optional<Hit> nearestSurface(const World& world, const Ray& ray, const std::optional<Hit>& after = {},
+                                  double nearest = 0);
 
 /// Radiance, W/(m² sr), that arrives at the origin of `ray` from its direction.
 /// throughput: the share of it that reaches the eye, so that rays that cannot matter are left out.

@@ -47,7 +47,7 @@ Compiled compileKernels(OpenDevice& device, const Settings& settings, const Deci
   return compiled;
 }
 
-device::RenderConstants constantsToDevice(const Scene& scene, const Settings& s) {
+device::RenderConstants constantsToDevice(const Scene& scene, const Camera& camera, const Settings& s) {
   const glm::vec3& b = scene.background.radiance;
   return {.background = {b.x, b.y, b.z},
           .rayOffset = s.rayOffset.value_or(-1.0F),
@@ -56,6 +56,8 @@ device::RenderConstants constantsToDevice(const Scene& scene, const Settings& s)
           .mirrorRoughness = s.mirrorRoughness,
           .seed = s.seed,
           .cutoff = s.cutoff,
+          .forward = {camera.forward.x, camera.forward.y, camera.forward.z},
+          .zfar = camera.zfar,
           .transparentBounces = static_cast<std::uint32_t>(s.transparentBounces)};
 }
 
@@ -153,7 +155,7 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
   const WavefrontSetup setup{decisions.features,
                              memory.scene,
                              cameraToDevice(scene.cameras[decisions.camera], settings),
-                             constantsToDevice(scene, settings),
+                             constantsToDevice(scene, scene.cameras[decisions.camera], settings),
                              static_cast<std::uint32_t>(settings.bounces),
                              static_cast<std::uint32_t>(mostHits(decisions.features, settings)),
                              decisions.compactChunk};

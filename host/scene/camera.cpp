@@ -78,6 +78,52 @@ double halfHeight(const Camera& camera, double aspect) {
   return wider > kRounding ? half * wider : half;
 }
 
+namespace {
+
+/// The point of a triangle that is nearest to the origin (Ericson, Real-Time Collision Detection, 5.1.5).
+glm::dvec3 nearestPoint(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 ab = b - a, ac = c - a;
+  const double d1 = -glm::dot(ab, a), d2 = -glm::dot(ac, a);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const double d3 = -glm::dot(ab, b), d4 = -glm::dot(ac, b);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double d5 = -glm::dot(ab, c), d6 = -glm::dot(ac, c);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
+  if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  const double sum = va + vb + vc;
+  return sum > 0 ? a + ab * (vb / sum) + ac * (vc / sum) : a;
+}
+
+}  // namespace
+
+bool nearPlaneCuts(const Scene& scene, const Camera& camera, double aspect) {
+  if (!(camera.znear > 0.0F)) return false;
+  const double znear = static_cast<double>(camera.znear) * (1 + 1e-6), half = halfHeight(camera, aspect);
+  const double farthest = znear * std::sqrt(1 + half * half * (1 + aspect * aspect));  // in a corner
+  const glm::dvec3 eye(camera.position), forward(camera.forward);
+  return std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& t) {
+    const glm::dvec3 a = glm::dvec3(scene.positions[t.v0]) - eye, b = glm::dvec3(scene.positions[t.v1]) - eye,
+                     c = glm::dvec3(scene.positions[t.v2]) - eye;
+    const double za = glm::dot(a, forward), zb = glm::dot(b, forward), zc = glm::dot(c, forward);
+    if (std::min({za, zb, zc}) >= znear || std::max({za, zb, zc}) <= 0) return false;
+    return camera.orthographic || glm::length(nearestPoint(a, b, c)) <= farthest;
+  });
+}
+
+bool liesBeyondFarPlane(const Scene& scene, const Camera& camera) {
+  const double zfar = camera.zfar;
+  if (!std::isfinite(zfar)) return false;
+  const glm::dvec3 eye(camera.position), forward(camera.forward);
+  return std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& t) {
+    for (const std::uint32_t v : {t.v0, t.v1, t.v2})
+      if (glm::dot(glm::dvec3(scene.positions[v]) - eye, forward) > zfar) return true;
+    return false;
+  });
+}
+
 std::size_t findCamera(const Scene& scene, const std::string& selector) {
   const auto& cameras = scene.cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i)

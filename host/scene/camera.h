@@ -15,6 +15,11 @@ inline constexpr double kUsualAspect = 16.0 / 9.0;
 /// of the frame is cut off (glTF 2.0, 3.10.3).
 double halfHeight(const Camera& camera, double aspect);
 
+/// Whether something lies before the camera's near plane, so that eye rays may meet it there.
+bool nearPlaneCuts(const Scene& scene, const Camera& camera, double aspect);
+/// Whether something lies beyond its far plane.
+bool liesBeyondFarPlane(const Scene& scene, const Camera& camera);
+
 /// Index of the camera with this name, on a node of this name, or with this number, in that order. Throws
 /// InputError for a selector that fits none.
 std::size_t findCamera(const Scene& scene, const std::string& selector);

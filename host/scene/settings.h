@@ -45,6 +45,7 @@ struct Settings {
   int transparentBounces = 64;  ///< surfaces that a ray may pass straight on, besides its bounces
   /// What eye and impulse rays make of the backs of single-sided surfaces that light does not pass.
   BackFaces backFaces = BackFaces::Cull;
+  bool clipFar = false;  ///< eye rays end at the camera's zfar
   float cutoff = 0.0F;   ///< no impulse of at most this throughput in every channel is traced; 0: none is cut
   int raysPerPixel = 1;  ///< 1 = through the pixel's centre
   bool shadows = true;
@@ -86,6 +87,7 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("bounces", s.bounces);
   visit("transparentBounces", s.transparentBounces);
   visit("backFaces", s.backFaces);
+  visit("clipFar", s.clipFar);
   visit("cutoff", s.cutoff);
   visit("raysPerPixel", s.raysPerPixel);
   visit("shadows", s.shadows);

@@ -32,6 +32,7 @@ device::DeviceCamera cameraToDevice(const Camera& camera, const Settings& s) {
   d.height = static_cast<std::uint32_t>(s.height);
   d.raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel);
   d.sampler = static_cast<std::uint32_t>(s.sampler);
+  d.znear = camera.znear;
   return d;
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 /// As kernels/shade.cl does.
 bool asksForDistances(const SceneFeatures& features) {
-  return features.has(Feature::TEXTURES) || features.has(Feature::ABSORPTION) || features.has(Feature::AOVS);
+  return features.has(Feature::TEXTURES) || features.has(Feature::ABSORPTION) ||
+         features.has(Feature::AOVS) || features.has(Feature::FAR_PLANE);
 }
 
 std::uint32_t rayPlanesFor(const SceneFeatures& features) {

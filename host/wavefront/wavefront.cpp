@@ -130,7 +130,7 @@ void Wavefront::intersect(const Buffer& queue, Segment segment, std::uint32_t bo
                                 .rays = queue,
                                 .hits = queues_.hits,
                                 .hitPlanes = queues_.hitPlanes(),
-                                .continued = bounce > 1});
+                                .continued = bounce > 1 || setup_.features.has(Feature::NEAR_PLANE)});
 }
 
 void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce) {

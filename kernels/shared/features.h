@@ -53,6 +53,8 @@
 #define BIT_CUTOFF 44                      // cut-off of weak impulses
 #define BIT_STRAIGHT 45                    // rays that go straight on
 #define BIT_ONE_SIDED 46                   // back faces left out
+#define BIT_NEAR_PLANE 47                  // near plane
+#define BIT_FAR_PLANE 48                   // far plane
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

@@ -117,7 +117,8 @@ WHITTLE_STRUCT(DeviceCamera) {
   uint height;
   uint raysPerPixel;
   uint sampler;  // 0 random, 1 stratified, 2 sobol
-  uint pad[2];
+  float znear;   // metres along forward: where eye rays begin, with NEAR_PLANE
+  uint pad;
 };
 
 // Constants of a render that a kernel needs by value.
@@ -129,6 +130,8 @@ WHITTLE_STRUCT(RenderConstants) {
   float mirrorRoughness;
   uint seed;
   float cutoff;             // an impulse whose throughput is at most this in every channel is not traced
+  float forward[3];         // of the camera
+  float zfar;               // metres along it: where eye rays end, with FAR_PLANE
   uint transparentBounces;  // surfaces that a ray may pass straight on, besides its bounces
 };
 

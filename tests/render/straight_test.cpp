@@ -266,5 +266,46 @@ TEST(BackFaces, StillCastShadows) {
   EXPECT_EQ(shot(scene, {0.1, 1.5, 0.2}, {0, -1, 0}, 2).x, 0);
 }
 
+/// A red wall before the near plane, a green one within, a blue one beyond the far plane.
+Scene walls(float znear, float zfar) {
+  Scene scene;
+  addFloor(scene, emitter({1, 0, 0}), 4, true, 0.3F);
+  addFloor(scene, emitter({0, 1, 0}), 2, true, 0.8F);
+  addFloor(scene, emitter({0, 0, 1}), 0, true, 4);
+  Camera camera = lookingDown();
+  camera.orthographic = false;
+  camera.position = {0.05F, 5, 0.02F};
+  camera.znear = znear;
+  camera.zfar = zfar;
+  scene.cameras = {camera};
+  return scene;
+}
+
+TEST(CameraPlanes, CutWhatLiesBeforeAndOnDemandBeyond) {
+  const auto middle = [](float znear, float zfar, bool clipFar, const Form& form) {
+    Settings settings;
+    settings.width = settings.height = 9;
+    settings.search = form.search;
+    settings.lanes = form.lanes;
+    settings.clipFar = clipFar;
+    return colorOf(renderOnDevice(walls(znear, zfar), settings), 40);
+  };
+  for (const Form& form : kForms) {
+    EXPECT_EQ(middle(0.5F, 100, false, form), glm::vec3(1, 0, 0));
+    EXPECT_EQ(middle(1.5F, 100, false, form), glm::vec3(0, 1, 0));
+    EXPECT_EQ(middle(3.5F, 4, false, form), glm::vec3(0, 0, 1)) << "zfar alone cuts nothing";
+    EXPECT_EQ(middle(3.5F, 4, true, form), glm::vec3(0));
+    EXPECT_EQ(middle(0.5F, 4, true, form), glm::vec3(1, 0, 0));
+  }
+  for (const bool clipFar : {false, true}) {
+    Settings settings = smallSettings();
+    settings.clipFar = clipFar;
+    expectAgreement(compareWithReference(walls(1.5F, 4.5F), settings), "planes", 8);
+  }
+  Settings plain;
+  EXPECT_FALSE(SceneFeatures::analyse(walls(0.5F, 100), plain, {true}).has(Feature::NEAR_PLANE));
+  EXPECT_TRUE(SceneFeatures::analyse(walls(1.5F, 100), plain, {true}).has(Feature::NEAR_PLANE));
+}
+
 }  // namespace
 }  // namespace whittle::test

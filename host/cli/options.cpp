@@ -99,9 +99,8 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
 
 void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
   c.option_defaults()->group("Picture");
-  o.width = addWhole(c, "--width", s.width, 1, 65535, "PIXELS",
-                     "width of the picture; given alone, the height follows from the camera");
-  o.height = addWhole(c, "--height", s.height, 1, 65535, "PIXELS", "height of the picture, likewise");
+  o.width = addWhole(c, "--width", s.width, 1, 65535, "PIXELS", "width of the picture");
+  o.height = addWhole(c, "--height", s.height, 1, 65535, "PIXELS", "height of the picture");
   CLI::Option* camera = addText(c, "--camera", [&s](const std::string& v) { s.camera = v; },
                                 {"NAME|INDEX", "camera of the scene, or the node that has it", s.camera});
   addViewpointOptions(c, o.view, camera);

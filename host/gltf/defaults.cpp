@@ -1,5 +1,7 @@
 // addDefaults of loader.h: a camera and lights for files that have none. Reads and writes the scene
 // only.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "gltf/loader.h"
@@ -29,6 +31,10 @@ void addDefaults(Scene& scene, Notices& notices, const LoadOptions& options) {
     scene.cameras.push_back(framingCamera(scene, aspect));
     notices.note("no camera in the file: one was added that frames the scene");
   }
+  if (!scene.lights.empty() && std::all_of(scene.lights.begin(), scene.lights.end(),
+                                           [](const Light& l) { return l.intensity == glm::vec3(0.0F); }))
+    notices.warn(
+        fmt::format("all {} lights of the file have intensity 0: they light nothing", scene.lights.size()));
   const bool isBlack = scene.background.map.empty() && scene.background.radiance == glm::vec3(0.0F);
   if (!scene.lights.empty() || !isBlack) {
     if (options.defaultLights.value_or(false) && !scene.lights.empty())

@@ -157,10 +157,9 @@ Vec3 visibility(const World& world, const Surfel& surfel, const Vec3& w_i, doubl
 Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& step, const Vec3& throughput,
         std::optional<Hit>* seen) {
   // The camera's planes concern what the eye sees, straight on.
-  const double along = glm::dot(ray.direction, Vec3(world.camera.forward));
+  const double along = glm::dot(ray.direction, Vec3(world.camera.forward)), znear = world.camera.znear;
   const bool fromEye = step.bounce == 1;
-  std::optional<Hit> hit =
-      nearestSurface(world, ray, step.after, fromEye ? static_cast<double>(world.camera.znear) / along : 0);
+  std::optional<Hit> hit = nearestSurface(world, ray, step.after, fromEye && znear > 0 ? znear / along : 0);
   if (hit && fromEye && world.settings.clipFar && hit->t * along > static_cast<double>(world.camera.zfar))
     hit.reset();
   if (seen) *seen = hit;

@@ -41,10 +41,10 @@ void place(Camera& camera, const glm::dvec3& eye, const glm::dvec3& forward, con
 }
 
 /// The least distance from the middle of the box along `toEye` from which every corner is in the picture.
-double framingDistance(const Bounds& box, const Camera& camera, double aspect) {
+double framingDistance(const Bounds& box, const Camera& camera, double yfov, double aspect) {
   const glm::dvec3 half = 0.5 * (box.hi - box.lo);
   const glm::dvec3 forward(camera.forward), right(camera.right), up(camera.up);
-  const double tanY = std::tan(0.5 * static_cast<double>(camera.yfov)) / kMargin;
+  const double tanY = std::tan(0.5 * yfov) / kMargin;
   double distance = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
@@ -64,7 +64,7 @@ Camera orbiting(const Scene& scene, double azimuth, double elevation, std::optio
   Camera camera;
   camera.yfov = static_cast<float>(yfov);
   place(camera, centre, -toEye, up);
-  camera.position = glm::vec3(centre + toEye * distance.value_or(framingDistance(box, camera, aspect)));
+  camera.position = glm::vec3(centre + toEye * distance.value_or(framingDistance(box, camera, yfov, aspect)));
   return camera;
 }
 

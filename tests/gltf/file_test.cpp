@@ -266,6 +266,16 @@ TEST(GltfDefaults, LightsAreAddedOnlyWhereNothingShines) {
   EXPECT_EQ(lightsWith(Json::object(), "anything").lights.size(), 3U);
 }
 
+TEST(GltfDefaults, LampsThatAreAllDarkAreSaid) {
+  for (const double intensity : {0.0, 1.0}) {
+    GltfBuilder b;
+    b.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", intensity}}};
+    b.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    EXPECT_EQ(b.load().lights.size(), 1U);
+    EXPECT_EQ(b.notices.warnings.size(), intensity == 0 ? 1U : 0U);
+  }
+}
+
 TEST(GltfDefaults, NothingAtAllStillLoads) {
   GltfBuilder b;
   const Scene scene = b.load();

@@ -27,7 +27,7 @@ Camera randomCamera(test::Rng& rng) {
 }
 
 struct EyeRays {
-  std::vector<float> rays;  ///< [RAY_PLANES][count]
+  std::vector<float> rays;  ///< [RAY_PLANES_STRAIGHT][count]
   std::uint32_t count;
   Vec3 at(std::uint32_t plane, std::uint32_t i) const {
     return {rays[plane * count + i], rays[(plane + 1) * count + i], rays[(plane + 2) * count + i]};
@@ -38,7 +38,7 @@ EyeRays eyeRays(test::KernelBench& bench, const Camera& camera, const Settings& 
                 const std::vector<std::uint32_t>& pixels) {
   const auto count = static_cast<std::uint32_t>(pixels.size());
   const Buffer order = bench.compute.upload("order", pixels);
-  const Buffer rays = bench.compute.allocate("rays", RAY_PLANES * sizeof(float) * count);
+  const Buffer rays = bench.compute.allocate("rays", RAY_PLANES_STRAIGHT * sizeof(float) * count);
   const device::Batch batch{0, count, 0, 1};
   bench.stages.run(stages::Raygen{.camera = cameraToDevice(camera, settings),
                                   .batch = batch,
@@ -46,7 +46,7 @@ EyeRays eyeRays(test::KernelBench& bench, const Camera& camera, const Settings& 
                                   .capacity = count,
                                   .pixelOrder = order,
                                   .rays = rays});
-  return {bench.read<float>(rays, static_cast<std::size_t>(RAY_PLANES) * count), count};
+  return {bench.read<float>(rays, static_cast<std::size_t>(RAY_PLANES_STRAIGHT) * count), count};
 }
 
 std::vector<std::uint32_t> randomPixels(test::Rng& rng, const Settings& s, int count) {

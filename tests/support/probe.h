@@ -28,9 +28,10 @@ inline Material emitter(const glm::vec3& radiance) {
   return m;
 }
 
-/// Reflectance `colour` at normal incidence.
+/// Reflectance `colour` at normal incidence, on both sides.
 inline Material mirror(const glm::vec3& colour) {
   Material m;
+  m.doubleSided = true;
   m.baseColor = glm::vec4(colour, 1);
   m.roughness = 0;
   return m;

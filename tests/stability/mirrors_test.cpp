@@ -9,6 +9,7 @@ namespace {
 /// Says where it is met: red/green = (x + half) / (2 half). Lies at height y, seen from above or below.
 void addRuler(Scene& scene, float y, float half) {
   Material ruler;
+  ruler.doubleSided = true;
   ruler.unlit = true;
   const std::uint32_t m = addMaterial(scene, ruler);
   const std::size_t first = scene.positions.size();

@@ -49,7 +49,7 @@ TEST(BoundedMemory, NestedGlassSixteenDeep) {
 /// 2^(bounces − 1). A ratio so near 1 that a dozen faces turn no ray far enough for total reflection.
 Scene sheets() {
   Scene scene;
-  Material sheet = glass(1.15F, true);
+  Material sheet = glass(1.06F, true);
   sheet.baseColor = {0.9F, 0.95F, 1, 1};
   sheet.emission = {0.2F, 0.1F, 0.15F};  // upwards only
   for (int i = 0; i < 48; ++i) addFloor(scene, sheet, 0.25F * static_cast<float>(i), true, 4);

@@ -2,6 +2,7 @@
 // entry's radiance (emission, background, light that needs no shadow ray), its shadow candidate for the first light,
 // its impulse candidates and their flags. What is written for an entry without its flag means nothing. shade_light: the
 // shadow candidate of a further light, one round for each light, so that memory does not grow with them.
+#include "lib/arrivals.cl"
 #include "lib/surface/background.cl"
 #include "lib/surface/bsdf.cl"
 #include "lib/surface/ray_offset.cl"
@@ -9,88 +10,6 @@
 #include "lib/impulses.cl"
 #include "lib/surface/light.cl"
 #include "lib/sampler.cl"
-
-/// The rays of LANES neighbouring entries and what they hit.
-typedef struct {
-  Real3 o, d;
-  Real t, b1, b2;
-  Natural triangle;  // where nothing is hit, one that another lane hits
-  Mask hit;
-#if HAS(STRAIGHT)
-  Real passed;           // distance up to which the ray has gone straight on, 0: not yet
-  Mask bounces, goesOn;  // may still do so: be reflected or refracted, go straight on
-  Mask hasBranched;      // too often to follow impulses that carry little (BRANCH_SHARE)
-#endif
-} Arrivals;
-
-/// Entry i and its neighbours of a segment that begins at `first` and has `count`.
-INLINE Arrivals loadArrivals(__global const float* rays, __global const float* hits, uint first, uint count,
-                             uint capacity, uint i) {
-  Arrivals a;
-  a.triangle = AS_NATURAL(LOAD(hits + (size_t)HIT_TRIANGLE * capacity + i));
-  a.hit = (LANE_NUMBERS < count - i) & (a.triangle != NO_HIT);
-  a.o = loadReal3(rays, capacity, RAY_O, first + i);
-  a.d = loadReal3(rays, capacity, RAY_D, first + i);
-#if HAS(TEXTURES) || HAS(ABSORPTION) || HAS(AOVS) || HAS(FAR_PLANE)
-  a.t = LOAD(hits + (size_t)HIT_T * capacity + i);
-#else
-  a.t = (Real)(0.0f);  // nothing asks, and the plane is not there
-#endif
-  a.b1 = LOAD(hits + (size_t)HIT_B1 * capacity + i);
-  a.b2 = LOAD(hits + (size_t)HIT_B2 * capacity + i);
-  uint triangle[LANES];
-  int hit[LANES];
-  STORE(a.triangle, triangle);
-  STORE(a.hit, hit);
-  uint there = 0;
-  for (uint k = 0; k < LANES; ++k) there = hit[k] ? triangle[k] : there;
-  a.triangle = a.hit ? a.triangle : (Natural)(there);
-  return a;
-}
-
-#if HAS(STRAIGHT)
-/// What the rays have done so far; eye rays (bounce 1) come from nowhere.
-INLINE void loadSteps(__global const float* rays, uint entry, uint capacity, uint bounce, uint lastBounce,
-                      uint transparentBounces, Arrivals* a) {
-  Natural steps = (Natural)(STEP_BOUNCE);
-  a->passed = (Real)(0.0f);
-  if (bounce > 1) {
-    steps = AS_NATURAL(LOAD(rays + (size_t)RAY_STEPS * capacity + entry));
-    a->passed = LOAD(rays + (size_t)RAY_AFTER_ORDER * capacity + entry);
-  }
-  const Natural bounces = steps & (STEP_STRAIGHT - 1);
-  a->bounces = bounces < lastBounce;
-  a->goesOn = (steps & (STEP_BRANCHED - 1)) / STEP_STRAIGHT < transparentBounces;
-  a->hasBranched = bounces + steps / STEP_BRANCHED >= lastBounce;
-}
-#endif
-
-#if HAS(FAR_PLANE)
-/// Nothing is seen beyond the far plane: of rays that come from the eye, straight on.
-INLINE void endAtFarPlane(const RenderConstants* constants, __global const float* rays, uint entry, uint capacity,
-                          uint bounce, Arrivals* a) {
-  const Real depth = a->t * dot3(a->d, real3(constants->forward[0], constants->forward[1], constants->forward[2]));
-  Mask beyond = depth > constants->zfar;
-  if (bounce > 1) {
-#if HAS(STRAIGHT)
-    const Natural steps = AS_NATURAL(LOAD(rays + (size_t)RAY_STEPS * capacity + entry));
-    beyond = beyond & ((steps & (STEP_STRAIGHT - 1)) == 1u);
-#else
-    return;
-#endif
-  }
-  a->hit = a->hit & !beyond;
-}
-#endif
-
-/// How far the rays came since they last met something.
-INLINE Real distanceInside(const Arrivals* a) {
-#if HAS(STRAIGHT)
-  return a->t - a->passed;
-#else
-  return a->t;
-#endif
-}
 
 /// exp(-sigma t), 1 where sigma is 0; lane by lane, since exp of a vector may round otherwise.
 INLINE Real absorbed(Real sigma, Real t) {

@@ -27,6 +27,9 @@ struct OptionHelp {
 CLI::Option* addText(CLI::App& command, const std::string& name, const StringSetter& set,
                      const OptionHelp& help);
 
+/// Whether it stands on the command line; null: the command does not have it.
+inline bool given(const CLI::Option* option) { return option && option->count() > 0; }
+
 /// Throws InputError that names `option` unless `text` is a number in [low, high], wholly.
 std::int64_t parseWhole(const std::string& option, const std::string& text, std::int64_t low,
                         std::int64_t high);

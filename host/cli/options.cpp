@@ -174,8 +174,6 @@ std::vector<std::string> uselessOptions(const Settings& settings) {
 
 namespace {
 
-bool given(const CLI::Option* option) { return option && option->count() > 0; }
-
 /// The side of the picture that was not given.
 void settleSize(const SceneOptions& options, const Scene& scene, Settings& settings) {
   if (given(options.width) == given(options.height)) return;

@@ -13,7 +13,7 @@
 namespace whittle::cli {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kToDegrees = 180.0 / std::numbers::pi;
 constexpr double kFarthest = 1e18;  // metres
 
 /// Numbers with commas between them, `least` to `most` of them.
@@ -38,8 +38,6 @@ glm::dvec3 parsePoint(const std::string& option, const std::string& text) {
   return {n[0], n[1], n[2]};
 }
 
-bool given(const CLI::Option* option) { return option && option->count() > 0; }
-
 /// As short as it can be and still the same number in single precision.
 std::string pointText(const glm::dvec3& p) { return fmt::format("{:.9g},{:.9g},{:.9g}", p.x, p.y, p.z); }
 
@@ -55,7 +53,7 @@ void addViewpointOptions(CLI::App& c, ViewpointOptions& o, CLI::Option* camera) 
   o.up = addText(c, "--up", [&v](const std::string& t) { v.up = parsePoint("--up", t); },
                  {"X,Y,Z", "what is up in the picture", "0,1,0"});
   o.fov = addText(c, "--fov",
-                  [&v](const std::string& t) { v.yfov = parseReal("--fov", t, 0.001, 179) / kDegrees; },
+                  [&v](const std::string& t) { v.yfov = parseReal("--fov", t, 0.001, 179) / kToDegrees; },
                   {"DEGREES", "vertical field of view of --eye and --orbit", "40.1"});
   o.orbit = addText(c, "--orbit",
                     [&v](const std::string& t) {
@@ -89,7 +87,7 @@ std::string viewpointText(const Camera& c, const glm::dvec3& origin) {
   const glm::dvec3 eye = glm::dvec3(c.position) + origin;
   return fmt::format("--eye {} --look-at {} --up {} --fov {:.7g}", pointText(eye),
                      pointText(eye + glm::dvec3(c.forward)), pointText(glm::dvec3(c.up)),
-                     static_cast<double>(c.yfov) * kDegrees);
+                     static_cast<double>(c.yfov) * kToDegrees);
 }
 
 }  // namespace whittle::cli

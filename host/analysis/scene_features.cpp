@@ -20,12 +20,18 @@ class Needs {
  public:
   Needs(const Scene& ofScene, const PrunedScene& ofUse, const Settings& withSettings,
         const DeviceTraits& onDevice)
-      : scene(ofScene), pruned(ofUse), settings(withSettings), traits(onDevice) {}
+      : scene(ofScene),
+        pruned(ofUse),
+        settings(withSettings),
+        traits(onDevice),
+        nearPlane(camera() && nearPlaneCuts(ofScene, *camera(),
+                                            static_cast<double>(withSettings.width) / withSettings.height)) {}
 
   const Scene& scene;
   const PrunedScene& pruned;  ///< what goes to the device
   const Settings& settings;
   const DeviceTraits& traits;
+  const bool nearPlane;  ///< something lies before it; asked once, of every triangle
 
   bool anyMaterial(const std::function<bool(const Material&)>& wanted) const {
     return std::any_of(pruned.materials.begin(), pruned.materials.end(), wanted);
@@ -52,10 +58,7 @@ class Needs {
   const Camera* camera() const {
     return scene.cameras.empty() ? nullptr : &scene.cameras[findCamera(scene, settings.camera)];
   }
-  bool nearPlane() const {
-    return camera() && nearPlaneCuts(scene, *camera(), static_cast<double>(settings.width) / settings.height);
-  }
-  bool impulses() const { return bounces() || straight() || nearPlane(); }
+  bool impulses() const { return bounces() || straight() || nearPlane; }
   bool shadows() const {
     return settings.shadows && lit() && anyLight([](const Light& l) { return l.castsShadows; });
   }
@@ -144,7 +147,7 @@ std::vector<Question> impulseQuestions(const Needs& n) {
                                                    : "no material is smooth, transmits or blends";
   return {
       {F::IMPULSES, n.impulses(), none, n.settings.bounces <= 1},
-      {F::STRAIGHT, n.straight() || n.nearPlane(), "no surface lets light straight on",
+      {F::STRAIGHT, n.straight() || n.nearPlane, "no surface lets light straight on",
        n.settings.bounces <= 1},
       {F::ONE_SIDED, n.settings.backFaces == BackFaces::Cull && n.anyMaterial(showsFrontOnly),
        n.settings.backFaces == BackFaces::Cull ? "every surface has two sides" : "back faces are shown",
@@ -183,7 +186,7 @@ std::vector<Question> cameraQuestions(const Needs& n) {
       {F::SAMPLER_RANDOM, sampler(Sampler::Random), one},
       {F::SAMPLER_STRATIFIED, sampler(Sampler::Stratified), one},
       {F::SAMPLER_SOBOL, sampler(Sampler::Sobol), one},
-      {F::NEAR_PLANE, n.nearPlane(), "nothing lies before the near plane", true},
+      {F::NEAR_PLANE, n.nearPlane, "nothing lies before the near plane", true},
       {F::FAR_PLANE, n.settings.clipFar && n.camera() && std::isfinite(n.camera()->zfar),
        n.settings.clipFar ? "the camera has no far plane" : "the far plane is not asked for", true},
       {F::FIXED_RAY_OFFSET, n.settings.rayOffset.has_value(), "the ray offset is derived at each hit"},

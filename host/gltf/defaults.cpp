@@ -41,15 +41,19 @@ void addDefaults(Scene& scene, Notices& notices, const LoadOptions& options) {
       notices.note("--default-lights adds nothing: the file has lights of its own");
     return;
   }
-  const bool lights = options.defaultLights.value_or(true), background = options.defaultBackground;
-  if (!options.defaultLights.value_or(somethingIsDark(scene) || scene.triangles.empty())) return;
+  const bool isWanted = somethingIsDark(scene) || scene.triangles.empty();
+  const bool lights = options.defaultLights.value_or(isWanted);
+  const bool background = options.defaultBackground && (isWanted || lights);
+  if (!lights && !background) return;
   const Camera& eye = scene.cameras[findCamera(scene, options.camera)];
   if (lights) scene.lights = studioLights(eye);
   if (background) scene.background = studioBackground(eye);
-  notices.note(
-      background ? "no light in the file: a small studio was added, three lights and surroundings to mirror "
-                   "(--no-default-lights and --no-default-background leave them out)"
-                 : "no light in the file: three lights were added (--no-default-lights leaves them out)");
+  notices.note(fmt::format("no light in the file: a small studio was added, {}{}{} ({} it out)",
+                           lights ? "three lights" : "", lights && background ? " and " : "",
+                           background ? "surroundings to mirror" : "",
+                           lights && background ? "--no-default-lights and --no-default-background leave"
+                           : lights             ? "--no-default-lights leaves"
+                                                : "--no-default-background leaves"));
 }
 
 }  // namespace whittle

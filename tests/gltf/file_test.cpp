@@ -255,6 +255,8 @@ TEST(GltfDefaults, LightsAreAddedOnlyWhereNothingShines) {
       << "asked for";
   EXPECT_EQ(lightsWith(Json::object(), Json::object()).lights.size(), 3U);
   EXPECT_EQ(lightsWith(Json::object(), Json::object(), false).lights.size(), 0U) << "not wanted";
+  EXPECT_FALSE(lightsWith(Json::object(), Json::object(), false).background.map.empty())
+      << "but a part of its own";
   EXPECT_EQ(lightsWith({{"emissiveFactor", {0, 1, 0}}}, Json::object()).lights.size(), 0U);
   EXPECT_EQ(
       lightsWith({{"extensions", {{"KHR_materials_unlit", Json::object()}}}}, Json::object()).lights.size(),

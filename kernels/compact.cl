@@ -1,6 +1,6 @@
 // compact: dense queues from sparse candidates, order kept (reduce, then scan, then scatter: Blelloch 1990), without
 // barriers: a work item walks COMPACT_CHUNK entries serially, which a CPU likes best and a GPU can afford with a small
-// COMPACT_CHUNK. compact_count: shadow rays and impulses in each chunk, and what a cut-off kept from being impulses.
+// COMPACT_CHUNK. compact_count: shadow rays and impulses in each chunk, and the throughput that ended there.
 // scan_chunks: exclusive sums of chunk totals. compact_shadow writes the shadow queue (indices of candidates),
 // compact_impulse the next ray queue.
 #include "lib/entry_flags.cl"
@@ -8,43 +8,54 @@
 
 #define CHUNKS(count) (((count) + COMPACT_CHUNK - 1) / COMPACT_CHUNK)
 
-__kernel void compact_count(
-    const uint count, __global const EntryFlags* flags,
-    __global uint* totals) {  // [2][chunks] shadow rays, impulses; with CUTOFF [3], units cut off
+/// Adds the units of what ended at entry i to the sum of what ended it.
+INLINE void addEnded(__global const float* impulses, uint capacity, uint i, uint flags, ulong* ended) {
+  for (uint k = 0; k < IMPULSES_OF_HIT; ++k) {
+    if (!(flags & (ENTRY_ENDED0 << k))) continue;
+    const float signedShare = impulses[(size_t)(k * IMPULSE_PLANES + IMPULSE_THROUGHPUT) * capacity + i];
+    const float share = fabs(signedShare);
+    const ulong units = (ulong)((share < ENDED_MOST ? share : ENDED_MOST) * ENDED_UNITS) + 1;
+    const int straight = (flags & (ENTRY_STRAIGHT0 << k)) != 0;
+    ended[signedShare < 0.0f ? ENDED_CUTOFF : (straight ? ENDED_STRAIGHT : ENDED_BOUNCES)] += units;
+  }
+}
+
+__kernel void compact_count(const uint count, const uint capacity, __global const uchar* flags,
+                            __global const float* impulses,  // null: nothing can have ended
+                            __global uint* totals) {         // [SUMS][chunks], of those that ended only with impulses
   const uint chunk = get_global_id(0);
   const uint begin = chunk * COMPACT_CHUNK;
   if (begin >= count) return;
   const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
-  uint shadows = 0, impulses = 0, cut = 0;
+  uint shadows = 0, found = 0;
+  ulong ended[ENDED_KINDS] = {0, 0, 0};
   for (uint i = begin; i < end; ++i) {
     shadows += flags[i] & ENTRY_SHADOW;
-    impulses += ((flags[i] >> 1) & 1u) + ((flags[i] >> 2) & 1u);
-#if HAS(CUTOFF)
-    cut += flags[i] >> ENTRY_CUTOFF_SHIFT;
-#endif
+    found += ((flags[i] >> 1) & 1u) + ((flags[i] >> 2) & 1u);
+    if (impulses && flags[i] >= ENTRY_ENDED0) addEnded(impulses, capacity, i, flags[i], ended);
   }
-  totals[chunk] = shadows;
-  totals[CHUNKS(count) + chunk] = impulses;
-#if HAS(CUTOFF)
-  totals[2 * CHUNKS(count) + chunk] = cut;
-#endif
+  totals[SUM_SHADOW * CHUNKS(count) + chunk] = shadows;
+  totals[SUM_IMPULSE * CHUNKS(count) + chunk] = found;
+  if (!impulses) return;
+  for (uint kind = 0; kind < ENDED_KINDS; ++kind) {
+    totals[(SUM_ENDED + 2 * kind) * CHUNKS(count) + chunk] = (uint)ended[kind];
+    totals[(SUM_ENDED + 2 * kind + 1) * CHUNKS(count) + chunk] = (uint)(ended[kind] >> 32);
+  }
 }
 
-/// Two work items, one for each kind: totals[kind][i] becomes the sum of those before it; sums[kind] the sum of all.
-/// With CUTOFF a third: sums[2] and sums[3], the low and high half of the units cut off.
+/// One work item for each kind. Of the two kinds of rays totals[kind][i] becomes the sum of those before it and
+/// sums[kind] the sum of all; the ENDED_KINDS behind them are summed alone.
 __kernel void scan_chunks(const uint chunks, __global uint* totals, __global uint* sums) {
   const uint kind = get_global_id(0);
-  if (!sums) return;  // compiled ahead of its first launch
-#if HAS(CUTOFF)
-  if (kind == 2) {
-    ulong cut = 0;
-    for (uint i = 0; i < chunks; ++i) cut += totals[2 * chunks + i];
-    sums[2] = (uint)cut;
-    sums[3] = (uint)(cut >> 32);
+  if (!sums || kind >= SUM_ENDED + ENDED_KINDS) return;  // no sums: compiled ahead of its first launch
+  if (kind >= SUM_ENDED) {
+    const uint low = SUM_ENDED + 2 * (kind - SUM_ENDED);
+    ulong ended = 0;
+    for (uint i = 0; i < chunks; ++i) ended += totals[low * chunks + i] | (ulong)totals[(low + 1) * chunks + i] << 32;
+    sums[low] = (uint)ended;
+    sums[low + 1] = (uint)(ended >> 32);
     return;
   }
-#endif
-  if (kind >= 2) return;
   __global uint* own = totals + kind * chunks;
   uint running = 0;
   for (uint i = 0; i < chunks; ++i) {
@@ -55,7 +66,7 @@ __kernel void scan_chunks(const uint chunks, __global uint* totals, __global uin
   sums[kind] = running;
 }
 
-__kernel void compact_shadow(const uint count, __global const EntryFlags* flags,
+__kernel void compact_shadow(const uint count, __global const uchar* flags,
                              __global const uint* offsets,  // [2][chunks] exclusive sums
                              __global uint* shadowQueue) {  // [capacity]
   const uint chunk = get_global_id(0);
@@ -77,8 +88,7 @@ INLINE uint stepOf(uint flags, int straight, uint steps) {
 #endif
 
 __kernel void compact_impulse(const uint first, const uint count, const uint capacity, const uint bounce,
-                              __global const EntryFlags* flags, __global const uint* offsets,
-                              __global const float* impulses,
+                              __global const uchar* flags, __global const uint* offsets, __global const float* impulses,
                               __global const float* rays,  // the queue the impulses came from: slots, steps
                               __global const float* hits,  // read with STRAIGHT
                               __global float* next) {      // [RAY_PLANES][capacity], RAY_PLANES_STRAIGHT

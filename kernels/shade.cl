@@ -85,46 +85,49 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
 }
 #endif
 
-#if HAS(CUTOFF)
-/// The largest channel of a throughput that is at most the cut-off, in the units of layout.h. Truncation loses less
-/// than one unit, the rounding of the division a fraction of another.
-INLINE Natural cutOffUnits(Real3 throughput, float cutoff) {
-  const Real share = clampUnit(largestOfThree(throughput.x, throughput.y, throughput.z) / cutoff);
-  return AS_NATURAL(TO_WHOLE(share * (float)CUTOFF_UNITS)) + 2u;
-}
-#endif
-
 #if HAS(IMPULSES)
-/// Stores impulse k of the entries from i, where it carries anything, in the k-th set of planes; returns its flags
-/// and what was cut off, to be added up.
+/// Where the limits let no impulse go on: `last` of the bounces, and what arrivals.cl says of rays that go straight on.
+INLINE Mask isEnded(const Arrivals* a, const Impulse* impulse, Real share, Mask last) {
+#if HAS(STRAIGHT)
+  return impulse->straight ? !a->goesOn : !a->bounces | (a->hasBranched & !(share >= BRANCH_SHARE));
+#else
+  return last;
+#endif
+}
+
+/// Stores impulse k of the entries from i, where it carries anything, in the k-th set of planes, and returns its flags.
+/// Of what is not followed it stores the throughput alone, as layout.h says.
 INLINE Natural storeImpulse(const RenderConstants* constants, const Arrivals* a, const Surfel* s,
-                            const Impulse* impulse, Real3 throughput, uint k, uint i, uint capacity,
+                            const Impulse* impulse, Real3 throughput, Mask last, uint k, uint i, uint capacity,
                             __global float* impulses) {
   const Real3 carried = mul3(throughput, impulse->magnitude);
-  Mask sent = a->hit & anyPositive(carried) & isFinite3(impulse->w_i);
-#if HAS(STRAIGHT)
-  const Mask little = !(largestOfThree(carried.x, carried.y, carried.z) >= BRANCH_SHARE);
-  sent = sent & (impulse->straight ? a->goesOn : a->bounces & !(a->hasBranched & little));
-#endif
-  Natural cut = (Natural)(0);
+  const Mask carries = a->hit & anyPositive(carried) & isFinite3(impulse->w_i);
+  const Real share = largestOfThree(carried.x, carried.y, carried.z);
+  Mask ended = carries & isEnded(a, impulse, share, last);
+  Real first = ended ? share : carried.x;
 #if HAS(CUTOFF)
-  const float cutoff = constants->cutoff;
-  const Mask weak = sent & (carried.x <= cutoff) & (carried.y <= cutoff) & (carried.z <= cutoff);
-  if (some(weak)) cut = weak ? cutOffUnits(carried, cutoff) << ENTRY_CUTOFF_SHIFT : cut;
-  sent = sent & !weak;
+  const Mask weak = carries & !ended & (share <= constants->cutoff);
+  first = weak ? -share : first;
+  ended = ended | weak;
 #endif
-  if (!some(sent)) return cut;
+  const Mask sent = carries & !ended;
+  Natural flags = ended ? (Natural)(ENTRY_ENDED0 << k) : (Natural)(0);
+  flags = sent ? (Natural)(ENTRY_IMPULSE0 << k) : flags;
+#if HAS(STRAIGHT)
+  flags = carries & impulse->straight ? flags | (ENTRY_STRAIGHT0 << k) : flags;
+#endif
   const uint base = k * IMPULSE_PLANES;
+  if (some(carries)) STORE(first, impulses + (size_t)(base + IMPULSE_THROUGHPUT) * capacity + i);
+  if (!some(sent)) return flags;
   Real3 origin = offsetOrigin(constants, s, impulse->w_i);
-  Natural flags = (Natural)(ENTRY_IMPULSE0 << k);
 #if HAS(STRAIGHT)
   origin = choose3(impulse->straight, a->o, origin);
-  flags = impulse->straight ? flags | (ENTRY_STRAIGHT0 << k) : flags;
 #endif
   storeReal3(impulses, capacity, base + IMPULSE_O, i, origin);
   storeReal3(impulses, capacity, base + IMPULSE_D, i, impulse->w_i);
-  storeReal3(impulses, capacity, base + IMPULSE_THROUGHPUT, i, carried);
-  return cut + (sent ? flags : (Natural)(0));
+  STORE(carried.y, impulses + (size_t)(base + IMPULSE_THROUGHPUT + 1) * capacity + i);
+  STORE(carried.z, impulses + (size_t)(base + IMPULSE_THROUGHPUT + 2) * capacity + i);
+  return flags;
 }
 
 /// Radiance, or NaN where an impulse's magnitude is: that is not traced, but the film has to count the sample.
@@ -228,7 +231,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
                     __global float* entryRadiance,  // [3][capacity] of the segment's entries
                     __global float* shadows,        // [SHADOW_PLANES][capacity]
                     __global float* impulses,       // [IMPULSES_OF_HIT IMPULSE_PLANES][capacity]
-                    __global EntryFlags* flags,     // [capacity] ENTRY_… and what was cut off
+                    __global uchar* flags,          // [capacity] ENTRY_…
                     __global float* aovs) {         // [AOV_PLANES][pixels]
   const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
@@ -269,26 +272,25 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
       found = found | directLight(&scene, &own, &s, w_o, a.hit, 0, attenuation, i, capacity, shadows, &shaded);
 #endif
 #if HAS(IMPULSES)
-    if (HAS(STRAIGHT) || bounce < lastBounce) {
-      Impulse one, two;
-      impulsesAt(&own, &s, w_o, &one, &two);
-      shaded = spoiltBy(shaded, add3(one.magnitude, two.magnitude));
+    Impulse one, two;
+    impulsesAt(&own, &s, w_o, &one, &two);
+    shaded = spoiltBy(shaded, add3(one.magnitude, two.magnitude));
 #if HAS(ONE_IMPULSE)
-      chooseOne(&one, &two, randomNumber(&names, 16u + bounce, own.seed));
+    chooseOne(&one, &two, randomNumber(&names, 16u + bounce, own.seed));
 #endif
-      Real3 throughput = attenuation;
-      if (bounce > 1) throughput = mul3(loadReal3(rays, capacity, RAY_THROUGHPUT, first + i), attenuation);
+    Real3 throughput = attenuation;
+    if (bounce > 1) throughput = mul3(loadReal3(rays, capacity, RAY_THROUGHPUT, first + i), attenuation);
+    const Mask last = (Natural)(bounce) >= (Natural)(lastBounce);
 #if HAS(BOTH_BRANCHES)
 #if HAS(STRAIGHT)
-      found = found + branching(&one, &two);
+    found = found + branching(&one, &two);
 #endif
-      found = found + storeImpulse(&own, &a, &s, &one, throughput, 0, i, capacity, impulses);
-      found = found + storeImpulse(&own, &a, &s, &two, throughput, 1, i, capacity, impulses);
+    found = found + storeImpulse(&own, &a, &s, &one, throughput, last, 0, i, capacity, impulses);
+    found = found + storeImpulse(&own, &a, &s, &two, throughput, last, 1, i, capacity, impulses);
 #else
-      const Impulse only = existing(&one, &two);
-      found = found + storeImpulse(&own, &a, &s, &only, throughput, 0, i, capacity, impulses);
+    const Impulse only = existing(&one, &two);
+    found = found + storeImpulse(&own, &a, &s, &only, throughput, last, 0, i, capacity, impulses);
 #endif
-    }
 #endif
     radiance = choose3(a.hit, shaded, radiance);
   }
@@ -303,7 +305,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const uint first, const uint count,
                           const uint capacity, const uint bounce, const uint light, __global const float* rays,
                           __global const float* hits, __global float* entryRadiance, __global float* shadows,
-                          __global EntryFlags* flags) {
+                          __global uchar* flags) {
   const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;

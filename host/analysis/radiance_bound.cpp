@@ -1,18 +1,18 @@
-// The bound, after host/reference/README.md. Let L(n) bound the radiance along a ray followed through n hits
-// more: L(0) = 0, and L(n + 1) is the largest of the background and, over materials, of what a surface sends
-// back when L(n) arrives along its impulses:
+// The bound, after host/reference/README.md. L bounds the radiance along any ray, however often it is
+// reflected, if it is at least the background and, for each material, what a surface sends back when L
+// arrives along its impulses:
 //
-//   a [emission + direct + (magnitudes of its impulses) L(n)] + (1 − a) L(n)
+//   a [emission + direct + (magnitudes of its impulses) L] + (1 − a) L
 //
 // A surface shares one unit of light between what it scatters and its impulses, so the terms do not add up:
 // the expression is linear in each of coverage a, metallic m, transmission τ and the Fresnel reflectance F,
-// so that its maximum is at an end of each one's range. Only what emits, or is rough and transparent, adds to
-// what arrives; a hall of mirrors does not grow with the bounces. Direct light is at most f · cos ·
-// biradiance with no shadow: for Lambert's part c/π, for the microfacet lobe see largestLobe.
+// so that its maximum is at an end of each one's range. It is convex in L, and so is the largest over all
+// materials: the least L that satisfies all of them is found by bisection. There is none where something
+// that emits also reflects or lets through everything: two mirrors that glow add up for ever. A hall of
+// mirrors that do not glow adds nothing.
 //
-// An impulse of throughput T that is cut off at the hit of bounce b takes at most T · L(bounces − b) from its
-// sample; these are added up over the picture. Absorption only takes away. Samples that are not finite are
-// not meant.
+// An impulse of throughput T that is not followed takes at most T L from its sample; these are added up over
+// the picture. Absorption only takes away. Samples that are not finite are not meant.
 #include "analysis/radiance_bound.h"
 
 #include <algorithm>
@@ -52,6 +52,7 @@ struct Surface {
   Interval metallic{0, 0}, transmission{0, 0};
   double specular = 0;
   bool smooth = false, rough = false, volume = false, blends = false;
+  bool turnsRays = false;  ///< sends out impulses that do not go straight on
 };
 
 /// D V cos for microfacets of at least this alpha. D = α²/(π ((n·h)²(α² − 1) + 1)²) is largest at n·h = 1,
@@ -87,6 +88,7 @@ Surface surfaceOf(const Material& m, float mirrorRoughness, const glm::dvec3& ve
   s.transmission = rangeOf(m.transmission, m.transmissionTexture.used());
   s.specular = m.specular;
   s.volume = m.volume;
+  s.turnsRays = canReflect(m, mirrorRoughness) || refracts(m);
   const double least = std::max(roughness.low, s.smooth ? static_cast<double>(mirrorRoughness) : 0.0);
   const double lobe = largestLobe(std::max(least * least, 1e-3));
   for (int c = 0; c < 3; ++c) {
@@ -151,19 +153,52 @@ glm::dvec3 largestBackground(const Background& background) {
   return largest * glm::dvec3(background.radiance);
 }
 
+/// What may differ between the two sides of `isBound` by rounding, and how far above what one hit returns a
+/// bound is looked for: beyond that it is of no use.
+constexpr double kSlack = 1 + 1e-12, kFarthest = 1e6;
+
+/// The least L with f(L) <= L, for a convex f that rises; infinite: there is none below kFarthest f(0).
+template <typename F>
+double leastBound(const F& f) {
+  const auto isBound = [&](double radiance) { return f(radiance) <= radiance * kSlack; };
+  double low = f(0.0);
+  if (low == 0.0 || !std::isfinite(low) || isBound(low)) return low;
+  double high = low * kFarthest;
+  if (!isBound(high)) return std::numeric_limits<double>::infinity();
+  while (high > low * (1 + 1e-9)) {
+    const double middle = std::sqrt(low) * std::sqrt(high);
+    (isBound(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+glm::dvec3 boundOf(const std::vector<Surface>& surfaces, const glm::dvec3& background) {
+  glm::dvec3 bound;
+  for (int c = 0; c < 3; ++c)
+    bound[c] = kRounding * leastBound([&](double arriving) {
+                 double most = background[c];
+                 for (const Surface& s : surfaces) most = std::max(most, returned(s, c, arriving));
+                 return most;
+               });
+  return bound;
+}
+
+/// The most that a surface which reflects or refracts sends back of `arriving`, without what it gives off
+/// itself.
+glm::dvec3 largestImpulses(std::vector<Surface> surfaces, const glm::dvec3& arriving) {
+  glm::dvec3 most(0);
+  for (Surface& s : surfaces) {
+    if (!s.turnsRays) continue;
+    s.own = s.matte = s.highlight = glm::dvec3(0);
+    for (int c = 0; c < 3; ++c) most[c] = std::max(most[c], returned(s, c, arriving[c]));
+  }
+  return most;
+}
+
 }  // namespace
 
-std::vector<glm::dvec3> radianceBounds(const Scene& scene, const Settings& settings, int hits) {
-  const std::vector<Surface> surfaces = surfacesOf(scene, settings.mirrorRoughness);
-  const glm::dvec3 background = largestBackground(scene.background);
-  std::vector<glm::dvec3> bounds{glm::dvec3(0)};
-  for (int n = 1; n <= hits; ++n) {
-    glm::dvec3 most = background;
-    for (const Surface& s : surfaces)
-      for (int c = 0; c < 3; ++c) most[c] = std::max(most[c], returned(s, c, bounds.back()[c]));
-    bounds.push_back(most * kRounding);
-  }
-  return bounds;
+glm::dvec3 radianceBound(const Scene& scene, const Settings& settings) {
+  return boundOf(surfacesOf(scene, settings.mirrorRoughness), largestBackground(scene.background));
 }
 
 double meanRadiance(const FloatImage& radiance) {
@@ -174,22 +209,20 @@ double meanRadiance(const FloatImage& radiance) {
   return std::max(sum.x, std::max(sum.y, sum.z)) / static_cast<double>(pixels);
 }
 
-double cutOffThroughput(const Settings& settings, const std::vector<std::uint64_t>& cutOff) {
-  double units = 0;
-  for (const std::uint64_t u : cutOff) units += static_cast<double>(u);
-  return units * static_cast<double>(settings.cutoff) / CUTOFF_UNITS;
+EndedThroughput endedThroughput(const EndedUnits& units) {
+  const auto throughput = [&](std::size_t kind) {
+    return static_cast<double>(units[kind]) / static_cast<double>(ENDED_UNITS);
+  };
+  return {throughput(ENDED_CUTOFF), throughput(ENDED_BOUNCES), throughput(ENDED_STRAIGHT)};
 }
 
-double biasBound(const Scene& scene, const Settings& settings, const std::vector<double>& cutOffPerSample) {
-  if (std::all_of(cutOffPerSample.begin(), cutOffPerSample.end(), [](double units) { return units == 0.0; }))
-    return 0;
-  const auto hits = static_cast<int>(cutOffPerSample.size());
-  const std::vector<glm::dvec3> bounds = radianceBounds(scene, settings, hits);
-  const double unit = static_cast<double>(settings.cutoff) / CUTOFF_UNITS;
-  glm::dvec3 lost(0);
-  for (std::size_t i = 0; i < cutOffPerSample.size(); ++i)
-    for (int c = 0; c < 3; ++c)
-      lost[c] += times(cutOffPerSample[i] * unit, bounds[cutOffPerSample.size() - 1 - i][c]);
+double biasBound(const Scene& scene, const Settings& settings, double endedPerSample) {
+  const bool counts = settings.bounces > 1;
+  if (endedPerSample == 0.0 && counts) return 0;
+  const std::vector<Surface> surfaces = surfacesOf(scene, settings.mirrorRoughness);
+  const glm::dvec3 bound = boundOf(surfaces, largestBackground(scene.background));
+  glm::dvec3 lost = counts ? glm::dvec3(0) : largestImpulses(surfaces, bound);
+  for (int c = 0; c < 3; ++c) lost[c] += times(endedPerSample, bound[c]);
   return std::max(lost.x, std::max(lost.y, lost.z));
 }
 

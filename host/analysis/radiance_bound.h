@@ -1,31 +1,43 @@
-// What a cut-off can cost at most: an upper bound on the radiance that comes back along any ray.
+// What rays that are not followed can cost at most: an upper bound on the radiance that comes back along one.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <vector>
 
 #include <glm/glm.hpp>
 
 #include "image/image_io.h"
+#include "kernels/shared/layout.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
 namespace whittle {
 
-/// Element n: an upper bound, each channel, W/(m² sr), on the radiance along a ray that may be followed
-/// through n hits more (element 0: 0). Infinite where there is no bound: a light on a surface that scatters
-/// it, factors of a material outside their range.
-std::vector<glm::dvec3> radianceBounds(const Scene& scene, const Settings& settings, int hits);
+/// Throughputs (largest channels) of the impulses that were not followed, summed in units of 1 / ENDED_UNITS,
+/// by what ended them (ENDED_…). The same however the samples were cut into batches.
+using EndedUnits = std::array<std::uint64_t, ENDED_KINDS>;
 
-/// An upper bound on the mean over the picture of the radiance (largest channel, W/(m² sr)) that the cut-off
-/// left out. cutOffPerSample: RayTally::cutOff for each sample. 0 where nothing was cut off; infinite where
-/// radianceBounds is. With ImpulseMode::One it bounds the expected radiance, about which the choices scatter.
-double biasBound(const Scene& scene, const Settings& settings, const std::vector<double>& cutOffPerSample);
+/// The same as numbers: 1 is all that one sample may carry.
+struct EndedThroughput {
+  double cutOff = 0.0;    ///< --cutoff
+  double bounces = 0.0;   ///< --bounces
+  double straight = 0.0;  ///< --transparent-bounces
+};
+EndedThroughput endedThroughput(const EndedUnits& units);
+
+/// An upper bound, each channel, W/(m² sr), on the radiance along any ray, followed as far as it goes.
+/// Infinite where there is none: a light on a surface that scatters it, factors of a material outside their
+/// range, surfaces that emit and reflect everything.
+glm::dvec3 radianceBound(const Scene& scene, const Settings& settings);
+
+/// An upper bound on the mean over the picture of the radiance (largest channel, W/(m² sr)) that impulses
+/// would have brought which --cutoff, --bounces or --transparent-bounces ended. endedPerSample: throughput
+/// for each sample, of all kinds. With one bounce reflections are not even counted: then it is all that any
+/// surface may reflect or refract. 0 where nothing ended; infinite where radianceBound is. With
+/// ImpulseMode::One it bounds the expected radiance, about which the choices scatter.
+double biasBound(const Scene& scene, const Settings& settings, double endedPerSample);
 
 /// The mean of a picture in its brightest channel, W/(m² sr): what biasBound bounds a change of.
 double meanRadiance(const FloatImage& radiance);
-
-/// RayTally::cutOff as throughput: the sum of the largest channels.
-double cutOffThroughput(const Settings& settings, const std::vector<std::uint64_t>& cutOff);
 
 }  // namespace whittle

@@ -116,7 +116,8 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
             "of .png and .jpg: roll highlights off, or cut them; auto: none where all materials are unlit");
 
   c.option_defaults()->group("Light");
-  addWhole(c, "--bounces", s.bounces, 1, 4096, "N", "backward tracing steps; 1 = direct light only");
+  addWhole(c, "--bounces", s.bounces, 1, 4096, "N",
+           "backward tracing steps; 1 = direct light only. A note says if much ends there, --stats how much");
   addWhole(c, "--transparent-bounces", s.transparentBounces, 0, 4096, "N",
            "surfaces that a ray may pass straight on, besides its bounces: blended or clear ones");
   addChoice(c, "--back-faces", s.backFaces,
@@ -125,7 +126,7 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
              "show nothing beyond the camera's zfar; many tools write one that means nothing [off]");
   addReal(c, "--cutoff", s.cutoff, 0, kLargestCutoff, "T",
           "trace no mirror or glass ray whose share of the picture (throughput) is at most this in every "
-          "colour; --stats says what that can cost (biasBound beside meanRadiance)",
+          "colour; --stats says what that and the limits of depth can cost (biasBound beside meanRadiance)",
           "0: trace them all");
   addWhole(c, "--rays-per-pixel", s.raysPerPixel, 1, 1 << 24, "N",
            "primary rays; 1 = through the pixel's centre");

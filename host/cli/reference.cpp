@@ -53,6 +53,8 @@ std::string statsText(const ReferenceOptions& o, const Scene& scene, const Refer
                                       {"total", rays.total()}}},
                                     {"time", {{"render", seconds}}},
                                     {"cutOffThroughput", rays.cutOff},
+                                    {"bouncesThroughput", rays.bounces},
+                                    {"transparentBouncesThroughput", rays.straight},
                                     {"nonFinite", result.nonFinite}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -188,11 +188,12 @@ void runRender(RenderOptions& o) {
   if (result.stats.nonFinite > 0)
     fmt::print(stderr, "warning: {} samples were not finite and count as black\n",
                formatInteger(result.stats.nonFinite));
-  if (!std::isfinite(result.stats.biasBound))
-    fmt::print(
-        stderr,
-        "warning: no bound on what --cutoff left out: a light lies on a surface that scatters it, or a "
-        "factor of a material is outside its range\n");
+  if (result.stats.ended.cutOff > 0.0 && !std::isfinite(result.stats.biasBound))
+    fmt::print(stderr,
+               "warning: no bound on what --cutoff left out: a light lies on a surface that scatters it, a "
+               "mirror glows, or a factor of a material is outside its range\n");
+  if (!o.scene.quiet)
+    for (const std::string& note : limitNotes(result.stats)) fmt::print(stderr, "note: {}\n", note);
   writeResults(o, scene, result, start, trace.get());
   report(o, result.stats);
 }

@@ -63,6 +63,8 @@ ReferenceResult render(const Scene& scene, const Settings& settings,
     result.rays.impulse += row.rays.impulse;
     result.rays.shadow += row.rays.shadow;
     result.rays.cutOff += row.rays.cutOff;
+    result.rays.bounces += row.rays.bounces;
+    result.rays.straight += row.rays.straight;
     result.nonFinite += row.nonFinite;
   }
   return result;

@@ -15,7 +15,9 @@ struct RayCounts {
   std::uint64_t primary = 0;
   std::uint64_t impulse = 0;
   std::uint64_t shadow = 0;
-  double cutOff = 0;  ///< throughput (largest channel) of the impulses that the cut-off left out, summed
+  /// Throughput (largest channel) of the impulses that were not followed, summed: because of the cut-off,
+  /// the limit of bounces, the limit of those straight on.
+  double cutOff = 0, bounces = 0, straight = 0;
   std::uint64_t total() const { return primary + impulse + shadow; }
 };
 

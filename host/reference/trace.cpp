@@ -64,7 +64,10 @@ Vec3 impulseLight(const World& world, const Sample& sample, const Ray& arrived, 
       if (!isDark(share)) sum += share;  // NaN: not traced, but the sample counts as not finite
       continue;
     }
-    if (!isFollowed(world.settings, impulse, step, share)) continue;
+    if (!isFollowed(world.settings, impulse, step, share)) {
+      (impulse.straight ? sample.rays.straight : sample.rays.bounces) += maxComponent(share);
+      continue;
+    }
     if (glm::all(glm::lessThanEqual(share, Vec3(world.settings.cutoff)))) {
       sample.rays.cutOff += maxComponent(share);
       continue;

@@ -106,8 +106,8 @@ void describeRays(Stats& stats, const Scene& scene, const Settings& settings, Wa
   stats.dropped = t.produced - t.finished;
   stats.samples = {loop.counts().least(), loop.counts().most(), loop.counts().mean()};
   stats.error = loop.error();
-  stats.cutOffThroughput = cutOffThroughput(settings, t.cutOff);
-  stats.biasBound = biasBound(scene, settings, loop.cutOffPerSample());
+  stats.ended = endedThroughput(t.ended);
+  stats.biasBound = biasBound(scene, settings, loop.endedPerSample());
   stats.nonFinite = wavefront.nonFinite();
 }
 

@@ -28,6 +28,11 @@ std::uint64_t shareOf(std::uint64_t samples, double share) {
                                  static_cast<std::uint64_t>(std::ceil(static_cast<double>(samples) * share)));
 }
 
+double endedInAll(const RayTally& tally) {
+  const EndedThroughput ended = endedThroughput(tally.ended);
+  return ended.cutOff + ended.bounces + ended.straight;
+}
+
 }  // namespace
 
 SamplingLoop::SamplingLoop(Compute& compute, Wavefront& wavefront, const Settings& settings,
@@ -37,8 +42,7 @@ SamplingLoop::SamplingLoop(Compute& compute, Wavefront& wavefront, const Setting
       settings_(settings),
       hooks_(hooks),
       buffers_(buffers),
-      counts_(buffers.orderTable.size()),
-      cutOffShares_(wavefront.tally().cutOff.size(), 0.0) {}
+      counts_(buffers.orderTable.size()) {}
 
 bool SamplingLoop::looks() const {
   return settings_.timeLimit > 0.0 || hasErrorTarget(settings_) || settings_.adaptive || hooks_.reference;
@@ -117,7 +121,7 @@ bool SamplingLoop::tracePass(const SamplePass& pass) {
 
 /// False: stopped, with the samples of the blocks that were finished.
 bool SamplingLoop::traceWith(const SamplePass& pass, const TracePass& launches) {
-  const std::vector<std::uint64_t> cutOffBefore = wavefront_.tally().cutOff;
+  const double endedBefore = endedInAll(wavefront_.tally());
   const KeepGoing ask{[this](double samples, bool between) { return keepGoing(samples, between); }};
   film_.reset();
   const std::uint32_t pixels = wavefront_.trace(launches, ask);
@@ -126,17 +130,13 @@ bool SamplingLoop::traceWith(const SamplePass& pass, const TracePass& launches) 
   // A pixel's mean holds a sample with the weight 1 / (samples in the end), which is at most 1 / (samples so
   // far).
   const double weight = 1.0 / (static_cast<double>(counts_.pixels()) * (pass.firstSample + pass.samples));
-  for (std::size_t b = 0; b < cutOffShares_.size(); ++b)
-    cutOffShares_[b] += weight * static_cast<double>(wavefront_.tally().cutOff[b] - cutOffBefore[b]);
+  endedShare_ += weight * (endedInAll(wavefront_.tally()) - endedBefore);
   return pixels == launches.pixels;
 }
 
-std::vector<double> SamplingLoop::cutOffPerSample() const {
-  if (counts_.least() != counts_.most()) return cutOffShares_;
-  std::vector<double> shares;
-  for (const std::uint64_t units : wavefront_.tally().cutOff)
-    shares.push_back(static_cast<double>(units) / static_cast<double>(counts_.total()));
-  return shares;
+double SamplingLoop::endedPerSample() const {
+  if (counts_.least() != counts_.most()) return endedShare_;
+  return endedInAll(wavefront_.tally()) / static_cast<double>(counts_.total());
 }
 
 bool SamplingLoop::keepGoing(double samplesOfPass, bool betweenBatches) {

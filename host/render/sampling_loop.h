@@ -40,8 +40,9 @@ class SamplingLoop {
   /// The picture, after run.
   FloatImage picture();
   FloatImage samples();
-  /// RayTally::cutOff for each sample, so weighted that biasBound holds for the mean over the pixels.
-  std::vector<double> cutOffPerSample() const;
+  /// The throughput that ended (RayTally::ended) for each sample, so weighted that biasBound holds for the
+  /// mean over the pixels.
+  double endedPerSample() const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -72,8 +73,8 @@ class SamplingLoop {
   std::uint32_t passSamples_ = 0;  ///< of each pixel, then
   bool saidLate_ = false;
   std::optional<FilmSums> film_;
-  std::vector<double> variances_;     ///< of blocks, at the last look
-  std::vector<double> cutOffShares_;  ///< bound for passes of some blocks only
+  std::vector<double> variances_;  ///< of blocks, at the last look
+  double endedShare_ = 0.0;        ///< bound on endedPerSample for passes of some blocks only
   std::vector<ErrorPoint> error_;
 };
 

@@ -175,12 +175,26 @@ std::string renderSummary(const Stats& s) {
   out += fmt::format("{} primary, {} impulse, {} shadow\n", formatInteger(s.rays.primary),
                      formatInteger(s.rays.impulse), formatInteger(s.rays.shadow));
   out += errorLines(s);
-  if (s.cutOffThroughput > 0.0 && std::isfinite(s.biasBound))
+  if (s.ended.cutOff > 0.0 && std::isfinite(s.biasBound))
     out += fmt::format(
-        "the cut-off took at most {} W/(m² sr) off the mean, which is {}{}\n", formatReal(s.biasBound),
+        "rays not followed took at most {} W/(m² sr) off the mean, which is {}{}\n", formatReal(s.biasBound),
         formatReal(s.meanRadiance),
         s.meanRadiance > 0.0 ? fmt::format(": {} %", formatReal(100.0 * s.biasBound / s.meanRadiance)) : "");
   return out;
+}
+
+std::vector<std::string> limitNotes(const Stats& s) {
+  std::vector<std::string> notes;
+  const auto say = [&](const char* option, int limit, double throughput) {
+    const double share = throughput / static_cast<double>(s.rays.primary);
+    if (share >= kVisibleShare)
+      notes.push_back(
+          fmt::format("{} % of what rays carry (throughput) ends at {} {}: more of them may show more",
+                      formatReal(100.0 * share), option, limit));
+  };
+  say("--bounces", s.settings.bounces, s.ended.bounces);
+  say("--transparent-bounces", s.settings.transparentBounces, s.ended.straight);
+  return notes;
 }
 
 }  // namespace whittle

@@ -149,7 +149,9 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
          {"mean", e.mean}});
   json["samples"] = {
       {"least", s.samples.least}, {"mean", wholeIfWhole(s.samples.mean)}, {"most", s.samples.most}};
-  json["cutOffThroughput"] = s.cutOffThroughput;
+  json["cutOffThroughput"] = s.ended.cutOff;
+  json["bouncesThroughput"] = s.ended.bounces;
+  json["transparentBouncesThroughput"] = s.ended.straight;
   json["biasBound"] =
       std::isfinite(s.biasBound) ? nlohmann::ordered_json(s.biasBound) : nlohmann::ordered_json(nullptr);
   json["meanRadiance"] = s.meanRadiance;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/pruning_report.h"
+#include "analysis/radiance_bound.h"
 #include "report/stage_facts.h"
 #include "scene/settings.h"
 
@@ -92,9 +93,9 @@ struct Stats {
   std::vector<BounceStats> bounces;
   std::vector<BufferStats> buffers;
   std::vector<ErrorPoint> error;
-  double cutOffThroughput = 0.0;  ///< of the impulses that the cut-off left out: largest channels, summed
-  double biasBound = 0.0;         ///< on what that took off the mean, W/(m² sr); may be infinite
-  double meanRadiance = 0.0;      ///< of the picture, in the brightest channel, W/(m² sr)
+  EndedThroughput ended;      ///< of all samples
+  double biasBound = 0.0;     ///< on what that took off the mean, W/(m² sr); may be infinite
+  double meanRadiance = 0.0;  ///< of the picture, in the brightest channel, W/(m² sr)
   struct {
     std::uint32_t least = 0, most = 0;
     double mean = 0.0;

@@ -50,12 +50,10 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
   if (impulseRays)
     impulses = planes("impulses", impulsesOfHit * IMPULSE_PLANES), entryRadiance = planes("entryRadiance", 3);
   if (shadowRays || impulseRays) {
-    const bool cutOff = features.has(Feature::CUTOFF);
-    flagBytes_ = cutOff ? sizeof(std::uint32_t) : sizeof(std::uint8_t);  // EntryFlags, lib/entry_flags.cl
-    flags = compute.allocate("flags", (std::size_t{capacity} + QUEUE_PADDING) * flagBytes_);
-    const std::size_t chunks = capacity / compactChunk + 1;
-    totals = compute.allocate("totals", (cutOff ? 3 : 2) * chunks * sizeof(std::uint32_t));
-    sums = compute.allocate("sums", (cutOff ? 4 : 2) * sizeof(std::uint32_t));
+    flags = compute.allocate("flags", std::size_t{capacity} + QUEUE_PADDING);
+    const std::size_t chunks = capacity / compactChunk + 1, kinds = impulseRays ? SUMS : SUM_ENDED;
+    totals = compute.allocate("totals", kinds * chunks * sizeof(std::uint32_t));
+    sums = compute.allocate("sums", kinds * sizeof(std::uint32_t));
   }
 }
 

@@ -27,9 +27,6 @@ struct SceneArgument {
   SceneArgument(const DeviceScene& s) : scene(&s) {}
 };
 
-/// The element type of the flags: a byte or a word, as the features have it (kernels/lib/entry_flags.cl).
-struct EntryFlags;
-
 /// A type as kernels write it.
 template <typename T>
 inline constexpr std::string_view kKernelType = "";
@@ -52,8 +49,8 @@ inline constexpr std::string_view kKernelType<Global<std::uint32_t>> = "__global
 template <>
 inline constexpr std::string_view kKernelType<Global<const std::uint32_t>> = "__global const uint*";
 template <>
-inline constexpr std::string_view kKernelType<Global<EntryFlags>> = "__global EntryFlags*";
+inline constexpr std::string_view kKernelType<Global<std::uint8_t>> = "__global uchar*";
 template <>
-inline constexpr std::string_view kKernelType<Global<const EntryFlags>> = "__global const EntryFlags*";
+inline constexpr std::string_view kKernelType<Global<const std::uint8_t>> = "__global const uchar*";
 
 }  // namespace whittle

@@ -70,7 +70,6 @@ struct LaunchWidths {
 /// Bytes of one entry in those queues that are as wide as the features ask.
 struct EntryBytes {
   Bytes hit = HIT_PLANES * sizeof(float);
-  Bytes flags = 1;
   bool slots = true;  ///< eye rays carry the slots of their samples
 };
 
@@ -87,6 +86,7 @@ using Count = std::uint32_t;
 inline constexpr Bytes kPlane = sizeof(float);                    ///< of an entry; indices are as wide
 inline constexpr Bytes kRay = (RAY_THROUGHPUT - RAY_O) * kPlane;  ///< origin and direction
 inline constexpr Bytes kRgb = 3 * kPlane;
+inline constexpr Bytes kFlags = sizeof(std::uint8_t);
 
 struct Raygen {
   static constexpr Stage stage{{"raygen", "eye rays", "raygen", "queues", "raygen.cl", "rays", "rays"},
@@ -135,7 +135,7 @@ struct Shade {
   Global<const Count> pixelOrder;
   Global<const float> rays, hits;
   Global<float> entryRadiance, shadows, impulses;
-  Global<EntryFlags> flags;
+  Global<std::uint8_t> flags;
   Global<float> aovs;
   WHITTLE_ARGUMENTS(scene, constants, batch, first, count, capacity, bounce, lastBounce, width, pixels,
                     pixelOrder, rays, hits, entryRadiance, shadows, impulses, flags, aovs)
@@ -144,7 +144,7 @@ struct Shade {
   /// Reads rays, hits and, after the first bounce, throughputs; writes radiance and flags.
   Bytes bytes(const EntryBytes& e) const {
     const bool throughputs = bounce > 1 && bounce < lastBounce;
-    return count * (kRay + e.hit + kRgb + (throughputs ? kRgb : 0) + e.flags);
+    return count * (kRay + e.hit + kRgb + (throughputs ? kRgb : 0) + kFlags);
   }
   /// Candidates come on top.
   static constexpr Bytes bytesOf(Bytes shadowRays, Bytes impulses) {
@@ -157,13 +157,14 @@ struct CompactCount {
       {"compact_count", "candidates in each chunk", "compact", "queues", "compact.cl", "entries", "hits"},
       PerWorkItem::Chunk,
       [](const StageConditions& c) { return c.shadows() || c.impulses(); }};
-  Count count = 0;
-  Global<const EntryFlags> flags;
+  Count count = 0, capacity = 0;
+  Global<const std::uint8_t> flags;
+  Global<const float> impulses;  ///< none: nothing can have ended
   Global<Count> totals;
-  WHITTLE_ARGUMENTS(count, flags, totals)
+  WHITTLE_ARGUMENTS(count, capacity, flags, impulses, totals)
 
   Count items() const { return count; }
-  Bytes bytes(const EntryBytes& e) const { return count * e.flags; }
+  Bytes bytes(const EntryBytes&) const { return count * kFlags; }
 };
 
 struct ScanChunks {
@@ -174,7 +175,8 @@ struct ScanChunks {
   Count chunks = 0;
   Global<Count> totals, sums;
   WHITTLE_ARGUMENTS(chunks, totals, sums)
-  Count kinds = 2;  ///< shadow rays, impulses and, with CUTOFF, units cut off; no argument: a work item each
+  /// Shadow rays, impulses and, where something can have ended, ENDED_KINDS; no argument: a work item each.
+  Count kinds = SUM_ENDED;
 
   Count items() const { return chunks; }
   Count workItems() const { return kinds; }
@@ -188,13 +190,13 @@ struct CompactShadow {
       PerWorkItem::Chunk,
       [](const StageConditions& c) { return c.shadows(); }};
   Count count = 0;
-  Global<const EntryFlags> flags;
+  Global<const std::uint8_t> flags;
   Global<const Count> offsets;
   Global<Count> shadowQueue;
   WHITTLE_ARGUMENTS(count, flags, offsets, shadowQueue)
 
   Count items() const { return count; }
-  Bytes bytes(const EntryBytes& e) const { return count * e.flags; }
+  Bytes bytes(const EntryBytes&) const { return count * kFlags; }
   /// The indices come on top.
   static constexpr Bytes bytesOf(Bytes found) { return found * kPlane; }
 };
@@ -226,13 +228,13 @@ struct ShadeLight {
   Count first = 0, count = 0, capacity = 0, bounce = 0, light = 0;
   Global<const float> rays, hits;
   Global<float> entryRadiance, shadows;
-  Global<EntryFlags> flags;
+  Global<std::uint8_t> flags;
   WHITTLE_ARGUMENTS(scene, constants, first, count, capacity, bounce, light, rays, hits, entryRadiance,
                     shadows, flags)
 
   Count items() const { return count; }
   /// Reads rays, hits, radiance and flags; writes the last two. Candidates come on top (Shade::bytesOf).
-  Bytes bytes(const EntryBytes& e) const { return count * (kRay + e.hit + 2 * kRgb + 2 * e.flags); }
+  Bytes bytes(const EntryBytes& e) const { return count * (kRay + e.hit + 2 * kRgb + 2 * kFlags); }
 };
 
 struct CompactImpulse {
@@ -241,14 +243,14 @@ struct CompactImpulse {
       PerWorkItem::Chunk,
       [](const StageConditions& c) { return c.impulses(); }};
   Count first = 0, count = 0, capacity = 0, bounce = 0;
-  Global<const EntryFlags> flags;
+  Global<const std::uint8_t> flags;
   Global<const Count> offsets;
   Global<const float> impulses, rays, hits;
   Global<float> next;
   WHITTLE_ARGUMENTS(first, count, capacity, bounce, flags, offsets, impulses, rays, hits, next)
 
   Count items() const { return count; }
-  Bytes bytes(const EntryBytes& e) const { return count * e.flags; }
+  Bytes bytes(const EntryBytes&) const { return count * kFlags; }
   /// On top: candidates and slots read, whole rays written.
   static constexpr Bytes bytesOf(Bytes found) { return found * (IMPULSE_PLANES + 1 + RAY_PLANES) * kPlane; }
 };

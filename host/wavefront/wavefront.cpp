@@ -13,7 +13,6 @@ Wavefront::Wavefront(Compute& compute, StageRunner& stages, RayQueues& queues, c
     : compute_(compute), stages_(stages), queues_(queues), setup_(setup), film_(film), aovs_(aovs) {
   counters_ = compute_.allocate("counters", COUNTERS * sizeof(std::uint32_t));
   compute_.fillZero(counters_);
-  tally_.cutOff.resize(setup_.rounds);
 }
 
 std::uint32_t Wavefront::trace(const TracePass& pass, const KeepGoing& keepGoing) {
@@ -97,13 +96,13 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
   radiance_ = bounce == 1 ? &queues_.sampleRadiance : &queues_.entryRadiance;
   intersect(queue, segment, bounce);
   shade(queue, segment, bounce);
-  const Candidates found = countCandidates(segment);
+  const Candidates found = countCandidates(segment, mayEnd(bounce));
   stages_.addBytes<stages::Shade>(stages::Shade::bytesOf(found.shadow, found.impulse));
-  tally_.cutOff[bounce - 1] += found.cutOff;
+  for (std::size_t kind = 0; kind < found.ended.size(); ++kind) tally_.ended[kind] += found.ended[kind];
   occlude(compactShadow(segment, found.shadow));
   for (std::uint32_t light = 1; light < setup_.scene.lightCount; ++light) {
     shadeLight(queue, segment, bounce, light);
-    const Candidates lit = countCandidates(segment);
+    const Candidates lit = countCandidates(segment, false);
     stages_.addBytes<stages::ShadeLight>(stages::Shade::bytesOf(lit.shadow, 0));
     occlude(compactShadow(segment, lit.shadow));
   }
@@ -170,18 +169,31 @@ void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t b
                                  .flags = queues_.flags});
 }
 
-Wavefront::Candidates Wavefront::countCandidates(Segment segment) {
+bool Wavefront::mayEnd(std::uint32_t bounce) const {
+  if (!setup_.features.has(Feature::IMPULSES)) return false;
+  if (setup_.features.has(Feature::CUTOFF) || bounce >= setup_.bounces) return true;
+  return setup_.features.has(Feature::STRAIGHT) && bounce > setup_.constants.transparentBounces;
+}
+
+Wavefront::Candidates Wavefront::countCandidates(Segment segment, bool mayEnd) {
   if (!queues_.flags) return {};
-  stages_.run(
-      stages::CompactCount{.count = segment.count(), .flags = queues_.flags, .totals = queues_.totals});
+  const Buffer none;
+  stages_.run(stages::CompactCount{.count = segment.count(),
+                                   .capacity = queues_.capacity(),
+                                   .flags = queues_.flags,
+                                   .impulses = mayEnd ? queues_.impulses : none,
+                                   .totals = queues_.totals});
   stages_.run(stages::ScanChunks{.chunks = chunksOf(segment),
                                  .totals = queues_.totals,
                                  .sums = queues_.sums,
-                                 .kinds = setup_.features.has(Feature::CUTOFF) ? 3U : 2U});
-  std::array<std::uint32_t, 4> sums{};
+                                 .kinds = mayEnd ? SUM_ENDED + ENDED_KINDS : SUM_ENDED});
+  std::array<std::uint32_t, SUMS> sums{};
   const auto work = stages_.hostWork("wait for counts");
   compute_.read(queues_.sums, 0, queues_.sums.bytes, sums.data());
-  return {sums[0], sums[1], std::uint64_t{sums[3]} << 32 | sums[2]};
+  Candidates found{sums[SUM_SHADOW], sums[SUM_IMPULSE], {}};
+  for (std::size_t kind = 0; mayEnd && kind < ENDED_KINDS; ++kind)
+    found.ended[kind] = std::uint64_t{sums[SUM_ENDED + 2 * kind + 1]} << 32 | sums[SUM_ENDED + 2 * kind];
+  return found;
 }
 
 std::uint32_t Wavefront::compactShadow(Segment segment, std::uint32_t found) {

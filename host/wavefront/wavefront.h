@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "analysis/radiance_bound.h"
 #include "analysis/scene_features.h"
 #include "cl/program.h"
 #include "kernels/shared/layout.h"
@@ -19,10 +20,7 @@ struct RayTally {
   std::uint64_t primary = 0, impulse = 0, shadow = 0;
   std::uint64_t produced = 0;  ///< rays put into a queue
   std::uint64_t finished = 0;  ///< rays intersected and shaded
-  /// Of the impulses that the cut-off left out at the hits of bounce b + 1: largest channels of their
-  /// throughputs, summed, in units of cutoff / CUTOFF_UNITS. The same however the samples were cut into
-  /// batches.
-  std::vector<std::uint64_t> cutOff;
+  EndedUnits ended{};
 };
 
 /// What every launch needs besides the queues; owned by the Renderer.
@@ -83,9 +81,11 @@ class Wavefront {
   /// What shading asked for in a segment.
   struct Candidates {
     std::uint32_t shadow = 0, impulse = 0;
-    std::uint64_t cutOff = 0;  ///< units, as RayTally::cutOff
+    EndedUnits ended{};
   };
-  Candidates countCandidates(Segment segment);
+  Candidates countCandidates(Segment segment, bool mayEnd);
+  /// Whether an impulse of this bounce's hits may not be followed though it carries something.
+  bool mayEnd(std::uint32_t bounce) const;
   std::uint32_t compactShadow(Segment segment, std::uint32_t found);
   void occlude(std::uint32_t count);
   std::uint32_t compactImpulse(const Buffer& queue, Segment segment, std::uint32_t bounce,

@@ -199,25 +199,36 @@ WHITTLE_STRUCT(Batch) {
 #define SHADOW_PLANES 10
 
 // Impulse candidates, two for each ray entry (plane + k * IMPULSE_PLANES), or one where no surface sends out
-// two: origin, direction, throughput.
+// two: origin, direction, throughput. Of one that is not followed (ENTRY_ENDED0) only the first plane of the
+// throughput is written: its largest channel, negative where --cutoff ended it.
 #define IMPULSE_O 0
 #define IMPULSE_D 3
 #define IMPULSE_THROUGHPUT 6
 #define IMPULSE_PLANES 9
 
-// What shade found at an entry: these flags in a byte, or in 32 bits with CUTOFF.
+// What shade found at an entry: these flags in a byte.
 #define ENTRY_SHADOW 1u
 #define ENTRY_IMPULSE0 2u
 #define ENTRY_IMPULSE1 4u
 #define ENTRY_STRAIGHT0 8u  // that impulse goes straight on
 #define ENTRY_STRAIGHT1 16u
 #define ENTRY_BRANCHED 32u  // one impulse goes straight on, the other does not
-// With CUTOFF, above the flags: what the entry's impulses would have carried but for the cut-off, each the
-// largest channel of its throughput in units of cutoff / CUTOFF_UNITS, rounded up. Sums of integers depend on
-// no order. Two impulses of CUTOFF_UNITS + 2 fit, and the sum over a chunk of up to 2^14 entries fits 32
-// bits.
-#define ENTRY_CUTOFF_SHIFT 6
-#define CUTOFF_UNITS 65536
+#define ENTRY_ENDED0 64u    // that impulse is not followed
+#define ENTRY_ENDED1 128u
+
+// What is not followed is counted by what ended it: sums of throughputs (largest channel) in these units, each rounded
+// up, so that no order changes a sum. A throughput counts as at most ENDED_MOST; a queue of 2^24 of them fits 64 bits.
+#define ENDED_CUTOFF 0
+#define ENDED_BOUNCES 1
+#define ENDED_STRAIGHT 2  // --transparent-bounces
+#define ENDED_KINDS 3
+#define ENDED_UNITS 67108864.0f  // 2^26
+#define ENDED_MOST 8192.0f
+// Sums over chunks and over all of them: shadow rays, impulses, then the low and high half of each ENDED_ kind.
+#define SUM_SHADOW 0
+#define SUM_IMPULSE 1
+#define SUM_ENDED 2
+#define SUMS (SUM_ENDED + 2 * ENDED_KINDS)
 
 // Film planes for each pixel, in the pixel order: compensated sums of RGB, and of the mean of their squares
 // for the error estimate. One sample for each pixel needs the sums only. A batch that does not go over

@@ -113,7 +113,8 @@ TEST(Stats, HoldsEveryKeyOfTheContract) {
   const Json& s = statsOf({"--rays-per-pixel", "4"});
   expectKeys(s,
              {"scene", "settings", "device", "features", "rays", "time", "phases", "stages", "bounces",
-              "memory", "error", "biasBound", "meanRadiance", "nonFinite", "dropped"},
+              "memory", "error", "cutOffThroughput", "bouncesThroughput", "transparentBouncesThroughput",
+              "biasBound", "meanRadiance", "nonFinite", "dropped"},
              "top");
   expectKeys(s["scene"], {"file", "triangles", "materials", "lights", "textures"}, "scene");
   expectKeys(s["settings"], {"output", "stats", "profile", "trace", "reference", "aov", "quiet"}, "settings");
@@ -208,9 +209,9 @@ TEST(Stats, SettingsAreThoseAskedFor) {
 TEST(Stats, ACutoffTracesLessAndSaysWhatItCanCost) {
   const Json &whole = statsOf({}), &cut = statsOf({"--cutoff", "0.25"});
   EXPECT_EQ(whole["settings"]["cutoff"], 0);
-  EXPECT_EQ(whole["biasBound"], 0);
   EXPECT_EQ(cut["settings"]["cutoff"], 0.25);
-  EXPECT_GT(cut["biasBound"].get<double>(), 0);
+  EXPECT_EQ(whole["cutOffThroughput"], 0);
+  EXPECT_GT(cut["biasBound"].get<double>(), whole["biasBound"].get<double>());
   EXPECT_GT(cut["cutOffThroughput"].get<double>(), 0);
   EXPECT_LT(cut["rays"]["impulse"].get<int>(), whole["rays"]["impulse"].get<int>());
 }

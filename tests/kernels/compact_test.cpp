@@ -1,5 +1,5 @@
 // compact.cl and find_long_runs against serial twins on the host: which entries, in which order, for chunks
-// that divide the count, that do not, and that are longer than it; flags in bytes and in words.
+// that divide the count, that do not, and that are longer than it; how much throughput ended.
 #include <gtest/gtest.h>
 
 #include "analysis/scene_features.h"
@@ -20,10 +20,10 @@ enum class Pattern { None, All, Random, OnlyLast };
 std::vector<std::uint32_t> makeFlags(Pattern pattern, std::uint32_t count) {
   test::Rng rng(count + 17);
   std::vector<std::uint32_t> flags(kCapacity + QUEUE_PADDING,
-                                   ENTRY_SHADOW | ENTRY_IMPULSE0 | ENTRY_IMPULSE1);  // beyond count: rubbish
+                                   ENTRY_SHADOW | ENTRY_IMPULSE0 | ENTRY_ENDED1);  // beyond count: rubbish
   for (std::uint32_t i = 0; i < count; ++i) {
     if (pattern == Pattern::None) flags[i] = 0;
-    if (pattern == Pattern::Random) flags[i] = static_cast<std::uint32_t>(rng.bits() & 63U);
+    if (pattern == Pattern::Random) flags[i] = static_cast<std::uint32_t>(rng.bits() & 255U);
     if (pattern == Pattern::OnlyLast && i + 1 < count) flags[i] = 0;
   }
   return flags;
@@ -32,12 +32,10 @@ std::vector<std::uint32_t> makeFlags(Pattern pattern, std::uint32_t count) {
 /// The compaction of one chunk length, launched as the wavefront launches it.
 class Compaction {
  public:
-  explicit Compaction(std::uint32_t chunk, std::uint64_t features = test::kAllFeatures)
-      : bench({"compact.cl"}, "", features, static_cast<int>(chunk)),
-        chunk_(chunk),
-        flagsAreWords_(SceneFeatures::ofBits(features).has(Feature::CUTOFF)) {
-    totals_ = bench.compute.allocate("totals", 3 * (kCapacity / chunk + 1) * sizeof(std::uint32_t));
-    sums_ = bench.compute.allocate("sums", 4 * sizeof(std::uint32_t));
+  explicit Compaction(std::uint32_t chunk)
+      : bench({"compact.cl"}, "", test::kAllFeatures, static_cast<int>(chunk)), chunk_(chunk) {
+    totals_ = bench.compute.allocate("totals", SUMS * (kCapacity / chunk + 1) * sizeof(std::uint32_t));
+    sums_ = bench.compute.allocate("sums", SUMS * sizeof(std::uint32_t));
   }
 
   /// Indices of the entries with a shadow ray; the whole buffer, so that writes beyond the end show.
@@ -75,11 +73,14 @@ class Compaction {
     return bench.read<std::uint32_t>(next, RAY_PLANES_STRAIGHT * kCapacity);
   }
 
-  /// What stands above the flags, summed over the entries.
-  std::uint64_t cutOff(const std::vector<std::uint32_t>& flags, std::uint32_t count) {
-    countAndScan(upload(flags), count, 3);
-    const auto sums = bench.read<std::uint32_t>(sums_, 4);
-    return std::uint64_t{sums[3]} << 32 | sums[2];
+  EndedUnits ended(const std::vector<std::uint32_t>& flags, const std::vector<float>& impulses,
+                   std::uint32_t count) {
+    countAndScan(upload(flags), count, bench.compute.upload("impulses", impulses));
+    const auto sums = bench.read<std::uint32_t>(sums_, SUMS);
+    EndedUnits units{};
+    for (std::size_t kind = 0; kind < ENDED_KINDS; ++kind)
+      units[kind] = std::uint64_t{sums[SUM_ENDED + 2 * kind + 1]} << 32 | sums[SUM_ENDED + 2 * kind];
+    return units;
   }
 
   std::uint32_t found = 0;  ///< of the last compaction
@@ -87,23 +88,24 @@ class Compaction {
 
  private:
   Buffer upload(const std::vector<std::uint32_t>& flags) {
-    if (flagsAreWords_) return bench.compute.upload("flags", flags);
     return bench.compute.upload("flags", std::vector<std::uint8_t>(flags.begin(), flags.end()));
   }
   std::uint32_t chunks(std::uint32_t count) const { return (count + chunk_ - 1) / chunk_; }
-  void countAndScan(const Buffer& flags, std::uint32_t count, std::uint32_t kinds) {
-    bench.stages.run(stages::CompactCount{.count = count, .flags = flags, .totals = totals_});
-    bench.stages.run(
-        stages::ScanChunks{.chunks = chunks(count), .totals = totals_, .sums = sums_, .kinds = kinds});
+  void countAndScan(const Buffer& flags, std::uint32_t count, const Buffer& impulses) {
+    bench.stages.run(stages::CompactCount{
+        .count = count, .capacity = kCapacity, .flags = flags, .impulses = impulses, .totals = totals_});
+    bench.stages.run(stages::ScanChunks{.chunks = chunks(count),
+                                        .totals = totals_,
+                                        .sums = sums_,
+                                        .kinds = impulses ? SUM_ENDED + ENDED_KINDS : SUM_ENDED});
   }
   /// kind: 0 shadow rays, 1 impulses.
   void scan(const Buffer& flags, std::uint32_t count, std::size_t kind) {
-    countAndScan(flags, count, 2);
+    countAndScan(flags, count, {});
     found = bench.read<std::uint32_t>(sums_, 2)[kind];
   }
 
   std::uint32_t chunk_;
-  bool flagsAreWords_;
   Buffer totals_, sums_;
 };
 
@@ -176,29 +178,31 @@ TEST(Compact, KeepsWhatIsWantedInOrder) {
   }
 }
 
-TEST(Compact, KeepsTheSameWithFlagsInBytes) {
-  const std::uint64_t cutoff = std::uint64_t{1} << static_cast<int>(Feature::CUTOFF);
-  for (const std::uint32_t chunk : {7U, 1024U}) {
-    Compaction compaction(chunk, test::kAllFeatures & ~cutoff);
-    checkChunk(compaction, chunk);
-  }
-}
-
-TEST(Compact, SumsWhatWasCutOffWhateverTheChunk) {
+/// Shares that are sums of powers of two down to 2^-20, so that the expected units need no rounding of ours;
+/// some above the most that counts.
+TEST(Compact, SumsWhatEndedWhateverTheChunk) {
   for (const std::uint32_t chunk : {1U, 7U, 32U, 1024U}) {
     Compaction compaction(chunk);
-    // One entry holds up to two impulses; more than 32 bits in all where a chunk cannot overflow.
-    const std::uint32_t most = chunk == 1 ? (1U << (32 - ENTRY_CUTOFF_SHIFT)) - 1 : 2 * (CUTOFF_UNITS + 2);
     for (const std::uint32_t count : {1U, chunk + 1, kCapacity}) {
+      SCOPED_TRACE(fmt::format("chunk {}, {} entries", chunk, count));
       test::Rng rng(count);
-      auto flags = makeFlags(Pattern::Random, count);
-      std::uint64_t expected = 0;
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const auto units = static_cast<std::uint32_t>(rng.bits() % (most + 1));
-        flags[i] |= units << ENTRY_CUTOFF_SHIFT;
-        expected += units;
-      }
-      EXPECT_EQ(compaction.cutOff(flags, count), expected) << "chunk " << chunk << ", " << count;
+      const auto flags = makeFlags(Pattern::Random, count);
+      std::vector<float> impulses(2 * IMPULSE_PLANES * kCapacity, NAN);
+      EndedUnits expected{};
+      for (std::uint32_t i = 0; i < count; ++i)
+        for (std::uint32_t k = 0; k < 2; ++k) {
+          if (!(flags[i] & (ENTRY_ENDED0 << k))) continue;
+          const std::uint64_t millionths = rng.bits() % (std::uint64_t{1} << 20);
+          const bool huge = i % 5 == 0, cutOff = rng.unit() < 0.4F;
+          const float share = huge ? 3e9F : static_cast<float>(millionths) * 0x1p-20F;
+          impulses[(k * IMPULSE_PLANES + IMPULSE_THROUGHPUT) * kCapacity + i] = cutOff ? -share : share;
+          const bool straight = flags[i] & (ENTRY_STRAIGHT0 << k);
+          // -0 is not below 0: what carries nothing is never written there.
+          const std::size_t kind =
+              cutOff && share > 0 ? ENDED_CUTOFF : (straight ? ENDED_STRAIGHT : ENDED_BOUNCES);
+          expected[kind] += 1 + (huge ? std::uint64_t{1} << (13 + 26) : millionths << 6);
+        }
+      EXPECT_EQ(compaction.ended(flags, impulses, count), expected);
     }
   }
 }

@@ -77,7 +77,8 @@ TEST(RenderStats, JsonHasEveryKey) {
   };
   expectKeys(json,
              {"scene", "settings", "device", "features", "rays", "time", "stages", "memory", "error",
-              "biasBound", "nonFinite", "dropped"},
+              "cutOffThroughput", "bouncesThroughput", "transparentBouncesThroughput", "biasBound",
+              "nonFinite", "dropped"},
              "statistics");
   expectKeys(json["scene"], {"file", "triangles", "materials", "lights", "textures"}, "scene");
   eachSetting(settings,

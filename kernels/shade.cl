@@ -263,7 +263,12 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
     s = surfelAt(&scene, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
     const Real3 w_o = minus3(a.d);
     const Real3 attenuation = absorptionAlong(&s, distanceInside(&a));
+#if HAS(AMBIENT)
+    const Real3 ambient = scale3((Real)(own.ambient), ambientReflectance(&own, &s));
+    Real3 shaded = mul3(scale3(s.alpha, add3(s.emission, ambient)), attenuation);
+#else
     Real3 shaded = mul3(scale3(s.alpha, s.emission), attenuation);
+#endif
 #if HAS(UNLIT)
     shaded = choose3((s.flags & MATERIAL_UNLIT) != 0, mul3(scale3(s.alpha, s.baseColor), attenuation), shaded);
 #endif

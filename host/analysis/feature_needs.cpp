@@ -65,7 +65,7 @@ std::vector<FeatureNeed> otherNeeds() {
       {F::METAL, {F::MICROFACET, F::MIRROR, F::REFRACTION}},
       {F::SPECULAR_EXTENSION, kScattering},
       {F::VERTEX_NORMALS, kScattering},
-      {F::VERTEX_COLORS, {F::LIGHTS, F::IMPULSES, F::UNLIT, F::ALPHA_MASK}},
+      {F::VERTEX_COLORS, {F::LIGHTS, F::IMPULSES, F::UNLIT, F::ALPHA_MASK, F::AMBIENT}},
       // Impulses: where they start, what they are called, how many there are.
       {F::MIRROR, {F::IMPULSES}},
       {F::TRANSMISSION, {F::IMPULSES}},

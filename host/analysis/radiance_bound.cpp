@@ -72,12 +72,14 @@ bool isUsual(const Material& m, const glm::dvec3& color) {
 }
 
 /// vertexColor: the largest of the scene. biradiance: of all lights on this material.
-Surface surfaceOf(const Material& m, float mirrorRoughness, const glm::dvec3& vertexColor,
+Surface surfaceOf(const Material& m, const Settings& settings, const glm::dvec3& vertexColor,
                   const glm::dvec3& biradiance) {
+  const float mirrorRoughness = settings.mirrorRoughness;
   Surface s;
   s.color = glm::dvec3(m.baseColor) * vertexColor;
   s.blends = blends(m);
-  s.own = isLit(m) ? glm::dvec3(m.emission) : s.color;
+  s.own = isLit(m) ? glm::dvec3(m.emission) + static_cast<double>(settings.ambient.value_or(0.0F)) * s.color
+                   : s.color;
   if (!isUsual(m, s.color)) s.own = glm::dvec3(std::numeric_limits<double>::infinity());
   if (!isLit(m)) return s;
   const bool textured = m.metallicRoughnessTexture.used();
@@ -127,7 +129,7 @@ double returned(const Surface& s, int c, double L) {
 }
 
 /// All materials that some triangle has.
-std::vector<Surface> surfacesOf(const Scene& scene, float mirrorRoughness) {
+std::vector<Surface> surfacesOf(const Scene& scene, const Settings& settings) {
   glm::dvec3 vertexColor(1), least(0);
   for (const glm::vec4& color : scene.colors) {
     vertexColor = glm::max(vertexColor, glm::dvec3(color));
@@ -139,8 +141,7 @@ std::vector<Surface> surfacesOf(const Scene& scene, float mirrorRoughness) {
   const std::vector<glm::dvec3> biradiance = largestBiradiance(scene);
   std::vector<Surface> surfaces;
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
-    if (used[i])
-      surfaces.push_back(surfaceOf(scene.materials[i], mirrorRoughness, vertexColor, biradiance[i]));
+    if (used[i]) surfaces.push_back(surfaceOf(scene.materials[i], settings, vertexColor, biradiance[i]));
   return surfaces;
 }
 
@@ -198,7 +199,7 @@ glm::dvec3 largestImpulses(std::vector<Surface> surfaces, const glm::dvec3& arri
 }  // namespace
 
 glm::dvec3 radianceBound(const Scene& scene, const Settings& settings) {
-  return boundOf(surfacesOf(scene, settings.mirrorRoughness), largestBackground(scene.background));
+  return boundOf(surfacesOf(scene, settings), largestBackground(scene.background));
 }
 
 double meanRadiance(const FloatImage& radiance) {
@@ -219,7 +220,7 @@ EndedThroughput endedThroughput(const EndedUnits& units) {
 double biasBound(const Scene& scene, const Settings& settings, double endedPerSample) {
   const bool counts = settings.bounces > 1;
   if (endedPerSample == 0.0 && counts) return 0;
-  const std::vector<Surface> surfaces = surfacesOf(scene, settings.mirrorRoughness);
+  const std::vector<Surface> surfaces = surfacesOf(scene, settings);
   const glm::dvec3 bound = boundOf(surfaces, largestBackground(scene.background));
   glm::dvec3 lost = counts ? glm::dvec3(0) : largestImpulses(surfaces, bound);
   for (int c = 0; c < 3; ++c) lost[c] += times(endedPerSample, bound[c]);

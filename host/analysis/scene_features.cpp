@@ -134,6 +134,9 @@ std::vector<Question> lightQuestions(const Needs& n) {
        "no light has a range"},
       {F::MICROFACET, n.lit() && n.anyMaterial(canShowHighlight), "no rough surface shows a highlight"},
       {F::EMISSION, n.anyMaterial(emits), "no material emits"},
+      {F::AMBIENT, n.settings.ambient.value_or(0.0F) > 0.0F && n.anyMaterial(isLit),
+       n.settings.ambient.value_or(0.0F) > 0.0F ? "no material answers to light"
+                                                : "no ambient light was asked for"},
       {F::UNLIT, n.anyMaterial([](const Material& m) { return m.unlit; }), "no material is unlit"},
       {F::BACKGROUND, b.r > 0.0F || b.g > 0.0F || b.b > 0.0F, "the background is black"},
       {F::BACKGROUND_MAP, !n.scene.background.map.empty(), "the background is one colour"},

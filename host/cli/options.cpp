@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "analysis/ambient.h"
 #include "analysis/feature_needs.h"
 #include "cli/error_options.h"
 #include "cli/feature_names.h"
@@ -83,10 +84,12 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
       ->type_name("");
   addText(c, "--scene", [&o](const std::string& v) { o.scene = v; },
           {"NAME|INDEX", "which scene of the file", "the file's default"});
-  addText(c, "--background", [&o](const std::string& v) { o.background = v; },
-          {"R,G,B|FILE",
-           "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr",
-           "as the file says"});
+  addText(
+      c, "--background", [&o](const std::string& v) { o.background = v; },
+      {"R,G,B|FILE",
+       "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr; it "
+       "lights nothing matte (--ambient does)",
+       "as the file says"});
   c.add_flag_callback(
       "--default-lights", [&o] { o.defaultLights = true; },
       "light a file that has neither lights nor a background like a studio [where something "
@@ -124,6 +127,18 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
             "backs of single-sided surfaces that light does not pass; shadow rays meet them in any case");
   c.add_flag("--clip-far", s.clipFar,
              "show nothing beyond the camera's zfar; many tools write one that means nothing [off]");
+  addText(c, "--ambient",
+          [&s](const std::string& word) {
+            s.ambient =
+                word == "auto"
+                    ? std::nullopt
+                    : std::optional(static_cast<float>(parseReal("--ambient", word, 0, kLargestAmbient)));
+          },
+          {"auto|X",
+           "Whitted's ambient term: radiance in W/(m² sr) that surfaces receive from all sides, unshadowed; "
+           "auto: "
+           "a tenth of the scene's light",
+           "0"});
   addReal(c, "--cutoff", s.cutoff, 0, kLargestCutoff, "T",
           "trace no mirror or glass ray whose share of the picture (throughput) is at most this in every "
           "colour; --stats says what that and the limits of depth can cost (biasBound beside meanRadiance)",
@@ -205,6 +220,10 @@ Scene loadScene(const SceneOptions& options, Settings& settings, Notices& notice
   if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))
     notices.note("something lies beyond the camera's zfar; --clip-far leaves it out");
   applyBackground(scene, options.background);
+  if (!settings.ambient) {
+    settings.ambient = automaticAmbient(scene);
+    notices.note(fmt::format("--ambient auto: {} W/(m² sr)", *settings.ambient));
+  }
   for (const auto& text : notices.warnings) fmt::print(stderr, "warning: {}\n", text);
   if (!options.quiet)
     for (const auto& text : notices.notes) fmt::print(stderr, "note: {}\n", text);

@@ -114,6 +114,12 @@ bool showsSide(const World& world, const Ray& ray, const Hit& hit) {
   return glm::dot(glm::cross(p1 - p0, p2 - p0), ray.direction) < 0;
 }
 
+/// What a lit surface sends back of radiance 1 from all sides: Lambert's part, and where it is rough its
+/// metal.
+Vec3 ambientReflectance(const Surfel& s) {
+  return ((1 - s.metallic) * (1 - s.transmission) + (s.smooth ? 0 : s.metallic)) * s.baseColor;
+}
+
 bool isFiniteInSinglePrecision(const Vec3& v) { return isFinite(Vec3(glm::vec3(v))); }
 
 }  // namespace
@@ -170,7 +176,11 @@ Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& st
   const Surfel surfel = makeSurfel(world.scene, world.settings, world.triangles, ray, *hit);
   const Vec3 kept = absorption(surfel, hit->t - (step.after ? step.after->t : 0));
   Vec3 radiance = surfel.alpha * (surfel.unlit ? surfel.baseColor : surfel.emission);
-  if (!surfel.unlit) radiance += directLight(world, sample, surfel, -ray.direction);
+  if (!surfel.unlit) {
+    const double ambient = world.settings.ambient.value_or(0.0F);
+    if (ambient > 0) radiance += surfel.alpha * ambient * ambientReflectance(surfel);
+    radiance += directLight(world, sample, surfel, -ray.direction);
+  }
   radiance += impulseLight(world, sample, ray, *hit, surfel, step, throughput * kept);
   return kept * radiance;
 }

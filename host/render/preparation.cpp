@@ -21,6 +21,8 @@ void checkSettings(const Settings& s) {
         fmt::format("--width/--height: {}×{} is not between 1×1 and 65535×65535", s.width, s.height));
   if (s.bounces < 1) throw InputError("--bounces: at least 1");
   if (s.transparentBounces < 0) throw InputError("--transparent-bounces: at least 0");
+  if (s.ambient && !(*s.ambient >= 0.0F && *s.ambient <= kLargestAmbient))
+    throw InputError(fmt::format("--ambient: not from 0 to {}", kLargestAmbient));
   if (!(s.cutoff >= 0.0F && s.cutoff <= kLargestCutoff))
     throw InputError(fmt::format("--cutoff: not from 0 to {}", kLargestCutoff));
   if (s.raysPerPixel < 1) throw InputError("--rays-per-pixel: at least 1");

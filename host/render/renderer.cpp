@@ -58,7 +58,8 @@ device::RenderConstants constantsToDevice(const Scene& scene, const Camera& came
           .cutoff = s.cutoff,
           .forward = {camera.forward.x, camera.forward.y, camera.forward.z},
           .zfar = camera.zfar,
-          .transparentBounces = static_cast<std::uint32_t>(s.transparentBounces)};
+          .transparentBounces = static_cast<std::uint32_t>(s.transparentBounces),
+          .ambient = s.ambient.value_or(0.0F)};
 }
 
 std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& settings,

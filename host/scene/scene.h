@@ -53,7 +53,7 @@ struct Material {
   float normalScale = 1.0F;
   TextureSlot normalTexture;
   float occlusionStrength =
-      1.0F;  ///< read and kept, not used: occlusion dims ambient light, and Whitted has none
+      1.0F;  ///< read and kept, not used: not even by --ambient
   TextureSlot occlusionTexture;
   glm::vec3 emission{0.0F};  ///< W/(m² sr): emissiveFactor · emissiveStrength; texture is sRGB, multiplied
   TextureSlot emissionTexture;

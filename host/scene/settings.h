@@ -47,6 +47,9 @@ struct Settings {
   BackFaces backFaces = BackFaces::Cull;
   bool clipFar = false;  ///< eye rays end at the camera's zfar
   float cutoff = 0.0F;   ///< no impulse of at most this throughput in every channel is traced; 0: none is cut
+  /// Radiance, W/(m² sr), that every lit surface receives from all sides, unshadowed: Whitted's ambient term.
+  /// Unset: chosen for the scene (automaticAmbient) before it is rendered.
+  std::optional<float> ambient = 0.0F;
   int raysPerPixel = 1;  ///< 1 = through the pixel's centre
   bool shadows = true;
   Search search = Search::Auto;
@@ -89,6 +92,7 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("backFaces", s.backFaces);
   visit("clipFar", s.clipFar);
   visit("cutoff", s.cutoff);
+  visit("ambient", s.ambient);
   visit("raysPerPixel", s.raysPerPixel);
   visit("shadows", s.shadows);
   visit("search", s.search);
@@ -113,6 +117,9 @@ void eachSetting(const Settings& s, const Visit& visit) {
 }
 
 inline bool hasErrorTarget(const Settings& s) { return s.targetError > 0.0 || s.targetErrorRelative > 0.0; }
+
+/// Above any that makes sense, and far from where single precision ends.
+inline constexpr float kLargestAmbient = 1e12F;
 
 /// Far above any throughput: everything is cut off.
 inline constexpr float kLargestCutoff = 1000.0F;

@@ -133,6 +133,7 @@ WHITTLE_STRUCT(RenderConstants) {
   float forward[3];         // of the camera
   float zfar;               // metres along it: where eye rays end, with FAR_PLANE
   uint transparentBounces;  // surfaces that a ray may pass straight on, besides its bounces
+  float ambient;            // radiance from all sides that every lit surface receives, with AMBIENT
 };
 
 // The samples of one batch: pixels [firstPixel, firstPixel + pixels) of the pixel order, times samples

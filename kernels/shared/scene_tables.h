@@ -15,13 +15,13 @@
 // X(slot, FEATURE, encoding, factor, (OTHERS)): the member of Material, and of DeviceMaterial that holds its
 // index; the feature of reading it; how its colours are stored; what is multiplied by it, of a material m
 // (where that is 0 it is not read; 1: it always is); the features of which one must be there for it to show.
-#define WHITTLE_TEXTURE_SLOTS(X)                                                               \
-  X(baseColorTexture, BASE_COLOR_TEXTURE, SRGB, 1.0F, (LIGHTS, IMPULSES, UNLIT, ALPHA_MASK))   \
-  X(metallicRoughnessTexture, METALLIC_ROUGHNESS_TEXTURE, LINEAR, 1.0F, (LIGHTS, IMPULSES))    \
-  X(normalTexture, NORMAL_TEXTURE, LINEAR, 1.0F, (LIGHTS, IMPULSES))                           \
-  X(emissionTexture, EMISSION_TEXTURE, SRGB, m.emission, (EMISSION))                           \
-  X(specularTexture, SPECULAR_TEXTURE, LINEAR, m.specular, (SPECULAR_EXTENSION))               \
-  X(specularColorTexture, SPECULAR_COLOR_TEXTURE, SRGB, m.specularColor, (SPECULAR_EXTENSION)) \
+#define WHITTLE_TEXTURE_SLOTS(X)                                                                      \
+  X(baseColorTexture, BASE_COLOR_TEXTURE, SRGB, 1.0F, (LIGHTS, IMPULSES, UNLIT, ALPHA_MASK, AMBIENT)) \
+  X(metallicRoughnessTexture, METALLIC_ROUGHNESS_TEXTURE, LINEAR, 1.0F, (LIGHTS, IMPULSES, AMBIENT))  \
+  X(normalTexture, NORMAL_TEXTURE, LINEAR, 1.0F, (LIGHTS, IMPULSES))                                  \
+  X(emissionTexture, EMISSION_TEXTURE, SRGB, m.emission, (EMISSION))                                  \
+  X(specularTexture, SPECULAR_TEXTURE, LINEAR, m.specular, (SPECULAR_EXTENSION))                      \
+  X(specularColorTexture, SPECULAR_COLOR_TEXTURE, SRGB, m.specularColor, (SPECULAR_EXTENSION))        \
   X(transmissionTexture, TRANSMISSION_TEXTURE, LINEAR, m.transmission, (TRANSMISSION))
 
 // The numbers of a material, of the same name in Material and DeviceMaterial, in the order of the latter.

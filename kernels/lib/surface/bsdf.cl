@@ -78,6 +78,19 @@ INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s,
   return f;
 }
 
+#if HAS(AMBIENT)
+/// What surfels send back of radiance 1 from all sides: Lambert's part, and where they are rough their metal.
+INLINE Real3 ambientReflectance(const RenderConstants* constants, const Surfel* s) {
+  const Real matte = (1.0f - s->metallic) * (1.0f - s->transmission);
+  const Real share = isSmooth(constants, s) ? matte : matte + s->metallic;
+#if HAS(UNLIT)
+  return scale3((s->flags & MATERIAL_UNLIT) != 0 ? (Real)(0.0f) : share, s->baseColor);
+#else
+  return scale3(share, s->baseColor);
+#endif
+}
+#endif
+
 /// A direction with an RGB magnitude for each lane; magnitude 0: there is none.
 typedef struct {
   Real3 w_i;

@@ -26,6 +26,9 @@ SMALL = ("--width", "96", "--height", "54")
 CHECKS = {
     "same_bits": Check("Is a picture the same bit for bit with everything compiled in?",
                        "same_bits.py", "same_bits.tsv", (str(SCENES / "mirror.glb"), str(SCENES / "shadow.glb"))),
+    "contact_sheets": Check("Does any scene come out black, burnt out or empty?",
+                            "contact_sheets.py", "contact_sheets.tsv",
+                            ("--shapes", "16:9", str(SCENES / "mirror.glb"), str(SCENES / "shadow.glb"))),
     "agreement": Check("How far are the kernels from the double-precision reference?",
                        "agreement.py", "agreement.tsv", (*SMALL, str(SCENES / "cornell_box.glb"))),
     "limits": Check("Where does a picture go wrong as it grows, moves away or gets brighter?",

@@ -93,7 +93,7 @@ TEST(AdaptivePasses, OneBlockMayGoBeyondTheBudgetButNotBeyondTheLimit) {
 
 TEST(Adaptive, EachPixelIsThatOfAPlainRenderWithItsSamples) {
   for (const Sampler sampler : {Sampler::Random, Sampler::Sobol}) {
-    Settings settings = smallSettings(4);
+    Settings settings = wholeSettings(4);
     settings.width = 100;  // 5,400 pixels: the last block is not whole
     settings.sampler = sampler;
     settings.raysPerPixel = 48;
@@ -125,7 +125,7 @@ TEST(Adaptive, EachPixelIsThatOfAPlainRenderWithItsSamples) {
 
 TEST(Adaptive, TakesMoreOffTheTrueErrorThanTheSameRaysEverywhere) {
   const Scene scene = ownScene("anti_aliasing");
-  Settings settings = smallSettings(2);
+  Settings settings = wholeSettings(2);
   settings.raysPerPixel = 4096;
   settings.seed = 77;
   const FloatImage converged = renderOnDevice(scene, settings).radiance;
@@ -147,7 +147,7 @@ TEST(Adaptive, TakesMoreOffTheTrueErrorThanTheSameRaysEverywhere) {
 TEST(ErrorEstimate, IsInfiniteWhereSquaresOverflow) {
   Scene scene = ownScene("cornell_box");
   for (Light& light : scene.lights) light.intensity *= 1e30F;
-  Settings settings = smallSettings(2);
+  Settings settings = wholeSettings(2);
   settings.raysPerPixel = 4;
   const RenderResult result = renderOnDevice(scene, settings);
   EXPECT_EQ(result.stats.nonFinite, 0U);
@@ -156,7 +156,7 @@ TEST(ErrorEstimate, IsInfiniteWhereSquaresOverflow) {
 
 /// Deep glass: each sample is thousands of rays, and the first pass takes longer than the limit.
 TEST(TimeLimit, EveryPixelGetsOneRayAndNoMoreThanFit) {
-  Settings settings = smallSettings(10);
+  Settings settings = wholeSettings(10);
   settings.raysPerPixel = 1 << 16;
   settings.timeLimit = 0.05;
   const RenderResult result = renderOnDevice(ownScene("nested_glass"), settings);
@@ -173,7 +173,7 @@ TEST(TimeLimit, EveryPixelGetsOneRayAndNoMoreThanFit) {
 TEST(TimeLimit, ABatchThatIsStoppedLeavesTheFilmAsItWas) {
   // Whatever the limit cuts, blocks have whole samples: each pixel is that of a plain render with its count.
   const Scene scene = ownScene("nested_glass");
-  Settings settings = smallSettings(6);
+  Settings settings = wholeSettings(6);
   settings.raysPerPixel = 1 << 16;
   settings.aovs = true;
   settings.wavefront = 2048;

@@ -31,6 +31,7 @@ Scene floorOf(const Material& material) {
 glm::vec3 seenWith(const Scene& scene, float ambient, Lanes lanes) {
   Settings settings = withAmbient(ambient);
   settings.lanes = lanes;
+  settings.keepAllFeatures = true;
   return colorOf(renderOnDevice(scene, settings), 27);
 }
 

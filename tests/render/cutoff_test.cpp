@@ -34,7 +34,7 @@ Scene hall() {
 Scene sceneOf(const std::string& name) { return name == "hall" ? hall() : ownScene(name); }
 
 Settings cutSettings(float cutoff, int bounces = 14) {
-  Settings settings = smallSettings(bounces);
+  Settings settings = wholeSettings(bounces);
   settings.width = 64;
   settings.height = 36;
   settings.cutoff = cutoff;
@@ -60,6 +60,11 @@ bool uses(const Stats& stats, const std::string& feature) {
 
 TEST(Cutoff, OfNothingCompilesNothingAndChangesNoBit) {
   const Scene scene = ownScene("nested_glass");
+  const auto cutSettings = [](float cutoff) {
+    Settings settings = whittle::test::cutSettings(cutoff);
+    settings.keepAllFeatures = false;
+    return settings;
+  };
   const RenderResult none = renderOnDevice(scene, cutSettings(0));
   EXPECT_FALSE(uses(none.stats, "cut-off of weak impulses"));
   const std::pair<std::string, std::string> line("cut-off of weak impulses", "no cut-off was asked for");

@@ -19,7 +19,7 @@ void PrintTo(const Subject& s, std::ostream* out) { *out << s.scene; }
 class Determinism : public ::testing::TestWithParam<Subject> {
  protected:
   Settings settings() const {
-    Settings s;
+    Settings s = wholeSettings();
     s.width = GetParam().width;
     s.height = GetParam().height;
     s.bounces = GetParam().bounces;
@@ -121,7 +121,7 @@ TEST_P(Determinism, Threads) {
     const auto file = folder / "picture.exr";
     const std::string command =
         std::string(WHITTLE_BINARY) + " render " + WHITTLE_SCENES + "/" + GetParam().scene +
-        ".glb --quiet --width " + std::to_string(GetParam().width) + " --height " +
+        ".glb --quiet --keep-all-features --width " + std::to_string(GetParam().width) + " --height " +
         std::to_string(GetParam().height) + " --bounces " + std::to_string(GetParam().bounces) +
         " --threads " + std::to_string(threads) + " -o " + file.string();
     ASSERT_EQ(std::system(command.c_str()), 0) << command;

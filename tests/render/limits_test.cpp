@@ -42,7 +42,7 @@ Scene panes(int count) {
 }
 
 Settings limited(int bounces) {
-  Settings settings = smallSettings(bounces);
+  Settings settings = wholeSettings(bounces);
   settings.width = 48;
   settings.height = 32;
   return settings;

@@ -18,7 +18,7 @@ void PrintTo(const SamplerCase& c, std::ostream* out) { *out << c.name; }
 class Samplers : public ::testing::TestWithParam<SamplerCase> {};
 
 TEST_P(Samplers, AgreeWithTheReference) {
-  Settings settings = smallSettings(5);
+  Settings settings = wholeSettings(5);
   settings.width = 48;
   settings.height = 27;
   settings.sampler = GetParam().sampler;
@@ -50,7 +50,7 @@ double meanLuminance(const FloatImage& image) {
 }
 
 TEST(OneImpulse, IsUnbiased) {
-  Settings settings = smallSettings(6);
+  Settings settings = wholeSettings(6);
   settings.width = 32;
   settings.height = 18;
   settings.raysPerPixel = 256;
@@ -67,7 +67,7 @@ TEST(OneImpulse, IsUnbiased) {
 }
 
 TEST(Samples, SeedsAndSamplersDiffer) {
-  Settings settings = smallSettings(1);
+  Settings settings = wholeSettings(1);
   settings.raysPerPixel = 4;
   const Scene scene = ownScene("anti_aliasing");
   const FloatImage first = renderOnDevice(scene, settings).radiance;

@@ -45,6 +45,7 @@ RenderResult lookDown(Scene scene, double height, const Form& form, Settings set
   camera.position = {0.1F, static_cast<float>(height), 0.2F};
   scene.cameras = {camera};
   settings.width = settings.height = 8;
+  settings.keepAllFeatures = true;
   settings.search = form.search;
   settings.lanes = form.lanes;
   return renderOnDevice(scene, settings);
@@ -195,17 +196,15 @@ TEST(StraightOn, HasTheSameBitsHoweverItIsTraced) {
     EXPECT_EQ(other.stats.dropped, 0U) << what;
   };
   for (const Form& form : kForms) {
-    Settings s = smallSettings();
+    Settings s = wholeSettings();
     s.search = form.search;
     s.lanes = form.lanes;
     expectSame(s, "another search");
   }
-  Settings s = smallSettings();
+  Settings s = wholeSettings();
+  expectSame(s, "all features");
   s.wavefront = 512;
   expectSame(s, "small wavefronts");
-  s = smallSettings();
-  s.keepAllFeatures = true;
-  expectSame(s, "all features");
 }
 
 /// Each pane makes two rays of one; without a limit thirty of them would make millions.
@@ -283,7 +282,7 @@ Scene walls(float znear, float zfar) {
 
 TEST(CameraPlanes, CutWhatLiesBeforeAndOnDemandBeyond) {
   const auto middle = [](float znear, float zfar, bool clipFar, const Form& form) {
-    Settings settings;
+    Settings settings = wholeSettings();
     settings.width = settings.height = 9;
     settings.search = form.search;
     settings.lanes = form.lanes;

@@ -23,6 +23,15 @@ inline Settings smallSettings(int bounces = 8) {
   return settings;
 }
 
+/// The same with every feature compiled in, for tests of what no feature changes: one compile serves all
+/// scenes and tests, and on a cold cache compiling is what takes their time. That leaving features out
+/// changes no bit is tested by itself (analysis/features_test.cpp, render/shared_scenes_test.cpp).
+inline Settings wholeSettings(int bounces = 8) {
+  Settings settings = smallSettings(bounces);
+  settings.keepAllFeatures = true;
+  return settings;
+}
+
 /// Renders on the device and with the kernels that the environment selects, see support/test_device.h. All
 /// renders of a process share the device and what was compiled on it, unless the settings name one or
 /// launches are not timed.

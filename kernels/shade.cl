@@ -264,7 +264,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
     const Real3 w_o = minus3(a.d);
     const Real3 attenuation = absorptionAlong(&s, distanceInside(&a));
 #if HAS(AMBIENT)
-    const Real3 ambient = scale3((Real)(own.ambient), ambientReflectance(&own, &s));
+    const Real3 ambient = scale3((Real)(own.ambient), ambientReflectance(&own, &s, w_o));
     Real3 shaded = mul3(scale3(s.alpha, add3(s.emission, ambient)), attenuation);
 #else
     Real3 shaded = mul3(scale3(s.alpha, s.emission), attenuation);

@@ -78,8 +78,7 @@ Surface surfaceOf(const Material& m, const Settings& settings, const glm::dvec3&
   Surface s;
   s.color = glm::dvec3(m.baseColor) * vertexColor;
   s.blends = blends(m);
-  s.own = isLit(m) ? glm::dvec3(m.emission) + static_cast<double>(settings.ambient.value_or(0.0F)) * s.color
-                   : s.color;
+  s.own = isLit(m) ? glm::dvec3(m.emission) : s.color;
   if (!isUsual(m, s.color)) s.own = glm::dvec3(std::numeric_limits<double>::infinity());
   if (!isLit(m)) return s;
   const bool textured = m.metallicRoughnessTexture.used();
@@ -92,10 +91,11 @@ Surface surfaceOf(const Material& m, const Settings& settings, const glm::dvec3&
   s.volume = m.volume;
   s.turnsRays = canReflect(m, mirrorRoughness) || refracts(m);
   const double least = std::max(roughness.low, s.smooth ? static_cast<double>(mirrorRoughness) : 0.0);
+  const double ambient = settings.ambient.value_or(0.0F);
   const double lobe = largestLobe(std::max(least * least, 1e-3));
   for (int c = 0; c < 3; ++c) {
-    s.matte[c] = times(s.color[c] / std::numbers::pi, biradiance[c]);
-    s.highlight[c] = times(lobe, biradiance[c]);
+    s.matte[c] = times(s.color[c] / std::numbers::pi, biradiance[c]) + ambient * s.color[c];
+    s.highlight[c] = times(lobe, biradiance[c]) + ambient * std::max(1.0, s.color[c]);
   }
   return s;
 }

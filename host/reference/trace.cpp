@@ -116,8 +116,10 @@ bool showsSide(const World& world, const Ray& ray, const Hit& hit) {
 
 /// What a lit surface sends back of radiance 1 from all sides: Lambert's part, and where it is rough its
 /// metal.
-Vec3 ambientReflectance(const Surfel& s) {
-  return ((1 - s.metallic) * (1 - s.transmission) + (s.smooth ? 0 : s.metallic)) * s.baseColor;
+Vec3 ambientReflectance(const Surfel& s, const Vec3& w_o) {
+  const Vec3 matte = (1 - s.metallic) * (1 - s.transmission) * s.baseColor;
+  if (!s.smooth) return matte + s.metallic * s.baseColor;
+  return matte * (1.0 - s.fresnel.reflectance(std::min(1.0, glm::dot(s.n, w_o)), s.eta));
 }
 
 bool isFiniteInSinglePrecision(const Vec3& v) { return isFinite(Vec3(glm::vec3(v))); }
@@ -178,7 +180,7 @@ Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& st
   Vec3 radiance = surfel.alpha * (surfel.unlit ? surfel.baseColor : surfel.emission);
   if (!surfel.unlit) {
     const double ambient = world.settings.ambient.value_or(0.0F);
-    if (ambient > 0) radiance += surfel.alpha * ambient * ambientReflectance(surfel);
+    if (ambient > 0) radiance += surfel.alpha * ambient * ambientReflectance(surfel, -ray.direction);
     radiance += directLight(world, sample, surfel, -ray.direction);
   }
   radiance += impulseLight(world, sample, ray, *hit, surfel, step, throughput * kept);

@@ -49,6 +49,9 @@ TEST(Ambient, EachKindOfSurfaceReturnsItsShare) {
   thin.baseColor.a = 0.5F;
   flat.unlit = true;
   const Material shiny = mirror(c);
+  Material coated = lambert(c);  // F0 = 0.04
+  coated.roughness = 0;
+  coated.specular = 1;
   for (const Lanes lanes : {Lanes::Auto, Lanes::One}) {
     expectColor(seenWith(floorOf(matte), X, lanes), glm::dvec3(c) * 3.0, "matte");
     expectColor(seenWith(floorOf(metal), X, lanes), glm::dvec3(c) * 3.0, "half metal, rough: all of it");
@@ -56,6 +59,8 @@ TEST(Ambient, EachKindOfSurfaceReturnsItsShare) {
                 "transmits a quarter into the dark");
     expectColor(seenWith(floorOf(thin), X, lanes), glm::dvec3(c) * 3.0 * 0.5, "half there");
     expectColor(seenWith(floorOf(flat), X, lanes), glm::dvec3(c), "unlit");
+    expectColor(seenWith(floorOf(coated), X, lanes), glm::dvec3(c) * 3.0 * 0.96,
+                "a coat that reflects the dark");
     expectColor(seenWith(floorOf(shiny), X, lanes), glm::dvec3(0), "a mirror shows what it reflects");
   }
 }
@@ -64,6 +69,16 @@ TEST(Ambient, IsSeenInMirrorsAndThroughWhatAbsorbs) {
   Scene scene = floorOf(mirror(glm::vec3(0.5F)));
   addFloor(scene, lambert(glm::vec3(0.5F)), 2, false, 4);
   expectColor(seenWith(scene, 1, Lanes::Auto), glm::dvec3(0.25), "half of a half");
+}
+
+/// The bound on what is missing knows of it, and knows that mirrors do not glow.
+TEST(Ambient, LeavesABound) {
+  Scene scene = floorOf(mirror(glm::vec3(0.5F)));
+  addFloor(scene, lambert(glm::vec3(0.5F)), 2, false, 4);
+  Settings settings = withAmbient(3);
+  settings.bounces = 1;
+  const Stats stats = renderOnDevice(scene, settings).stats;
+  EXPECT_NEAR(stats.biasBound, 1.5, 1e-3) << "all of what the matte floor sends back";
 }
 
 TEST(Ambient, IsNotCompiledUnlessAskedForAndOfUse) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/outputs.h"
 #include "image/metrics.h"
 #include "report/text.h"
 
@@ -18,10 +19,8 @@ struct CompareOptions {
   bool json = false;
 };
 
-/// Radiance as floats, not a tone-mapped picture for the eye.
-bool isLinear(const std::filesystem::path& file) {
-  const std::string extension = file.extension().string();
-  return extension == ".exr" || extension == ".hdr" || extension == ".EXR" || extension == ".HDR";
+Shown shownAs(const std::filesystem::path& file) {
+  return isToneMapped(file) ? Shown::AsItIs : Shown::ToneMapped;
 }
 
 int colorChannels(const FloatImage& image) { return image.channels >= 3 ? 3 : 1; }
@@ -43,7 +42,7 @@ void print(const ImageMetrics& m, std::uint64_t pixels) {
   line("rmse", fmt::format("{:.6g}", m.rmse), "root mean square difference");
   line("relMse", fmt::format("{:.6g}", m.relMse), "mean of (a-b)²/(b²+0.01)");
   line("maxAbs", fmt::format("{:.6g}", m.maxAbs), "largest difference of a channel");
-  line("flip", fmt::format("{:.6g}", m.flip), "mean FLIP of the tone-mapped pictures, 0 to 1");
+  line("flip", fmt::format("{:.6g}", m.flip), "mean FLIP of the pictures as shown, 0 to 1");
   line("differingPixels", formatInteger(m.differingPixels),
        fmt::format("of {} have other bits", formatInteger(pixels)).c_str());
 }
@@ -55,11 +54,11 @@ int runCompare(const CompareOptions& o) {
     fmt::print(stderr, "whittle: {} but {}: they cannot be compared\n", shapeOf(o.a, a), shapeOf(o.b, b));
     return 1;
   }
-  if (isLinear(o.a) != isLinear(o.b))
+  if (isToneMapped(o.a) != isToneMapped(o.b))
     fmt::print(stderr,
                "note: one picture is linear, the other tone-mapped and cut off at white: their difference "
                "holds that too\n");
-  const ImageMetrics m = compareImages(a, b);
+  const ImageMetrics m = compareImages(a, b, shownAs(o.a), shownAs(o.b));
   const auto pixels = static_cast<std::uint64_t>(a.width) * static_cast<std::uint64_t>(a.height);
   if (m.nonFinite + m.nonFiniteReference > 0)
     fmt::print(stderr, "warning: pixels that are not finite: {} in {}, {} in {}; {}\n",
@@ -92,6 +91,8 @@ void addCompare(CLI::App& app, int& status) {
   c->option_defaults()->group("Output");
   c->add_flag("--json", o->json, "as JSON; a number that is not finite is null");
   c->footer(
+      "Of a file with layers R, G and B count, or its only layer. FLIP, at 67 pixels a degree:\n"
+      "of .png and .jpg by their own codes, of radiance after the tone map.\n"
       "Status 1 if the pictures have different sizes or numbers of colour channels.\n"
       "Example: whittle compare picture.exr right.exr");
   c->callback([o, &status] { status = runCompare(*o); });

@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "cl/error.h"
+#include "cli/aovs.h"
 #include "cli/commands.h"
 #include "cli/error_options.h"
 #include "cli/info_report.h"
 #include "cli/option_kinds.h"
 #include "cli/options.h"
-#include "cli/outputs.h"
 #include "render/renderer.h"
 #include "scene/camera.h"
 #include "wavefront/camera_to_device.h"

@@ -84,24 +84,29 @@ Json pipelineJson(const std::vector<std::string>& names) {
   return pipeline;
 }
 
+Json backgroundJson(const Background& b) {
+  return {{"radiance", toJson(b.radiance)},
+          {"mapWidth", b.width},
+          {"mapHeight", b.height},
+          {"rotation", b.rotation}};
+}
+
 }  // namespace
 
 Json infoJson(const InfoReport& r) {
   const Scene& scene = r.scene;
-  const auto& b = scene.background;
-  Json json{
-      {"file", scene.file},
-      {"triangles", scene.triangles.size()},
-      {"droppedTriangles", scene.droppedTriangles},
-      {"vertices", scene.positions.size()},
-      {"materials", scene.materials.size()},
-      {"textures", scene.images.size()},
-      {"lights", lightsJson(scene)},
-      {"cameras", camerasJson(scene)},
-      {"background", {{"radiance", toJson(b.radiance)}, {"mapWidth", b.width}, {"mapHeight", b.height}}},
-      {"features", featuresJson(r.features, r.pruning)},
-      {"stages", r.stages},
-      {"pipeline", pipelineJson(r.stages)}};
+  Json json{{"file", scene.file},
+            {"triangles", scene.triangles.size()},
+            {"droppedTriangles", scene.droppedTriangles},
+            {"vertices", scene.positions.size()},
+            {"materials", scene.materials.size()},
+            {"textures", scene.images.size()},
+            {"lights", lightsJson(scene)},
+            {"cameras", camerasJson(scene)},
+            {"background", backgroundJson(scene.background)},
+            {"features", featuresJson(r.features, r.pruning)},
+            {"stages", r.stages},
+            {"pipeline", pipelineJson(r.stages)}};
   json["device"] = r.plan ? Json(r.plan->device.name) : Json(nullptr);
   json["deviceProblem"] = r.plan ? Json(nullptr) : Json(r.planProblem);
   json["buffers"] = r.plan ? buffersJson(*r.plan) : Json(nullptr);

@@ -91,7 +91,8 @@ std::string contents(const Scene& s) {
   if (s.lights.size() > kShown)
     out += fmt::format("    … and {} more (--json has them all)\n", formatInteger(s.lights.size() - kShown));
   const auto& b = s.background;
-  const std::string map = b.map.empty() ? "" : fmt::format(" times a map of {}×{}", b.width, b.height);
+  std::string map = b.map.empty() ? "" : fmt::format(" times a map of {}×{}", b.width, b.height);
+  if (!b.map.empty() && b.rotation != 0.0) map += fmt::format(", turned by {:g}°", b.rotation);
   return out + "  " + wrapped(fmt::format("background {} W/(m² sr){}", vectorText(b.radiance), map), 78, 4) +
          "\n";
 }

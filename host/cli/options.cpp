@@ -7,71 +7,19 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <sstream>
 
 #include "analysis/ambient.h"
 #include "analysis/feature_needs.h"
+#include "cli/background.h"
 #include "cli/error_options.h"
 #include "cli/feature_names.h"
 #include "cli/option_kinds.h"
 #include "gltf/loader.h"
-#include "image/image_io.h"
 #include "report/text.h"
 #include "scene/camera.h"
 #include "scene/input_error.h"
 
 namespace whittle::cli {
-namespace {
-
-/// "R,G,B", or one number for grey.
-bool parseRadiance(const std::string& text, glm::vec3& out) {
-  std::istringstream in(text);
-  char comma1 = 0, comma2 = 0;
-  glm::vec3 v;
-  if (!(in >> v.r)) return false;
-  if (in.eof()) {
-    out = glm::vec3(v.r);
-    return true;
-  }
-  if (!(in >> comma1 >> v.g >> comma2 >> v.b) || comma1 != ',' || comma2 != ',' || !(in >> std::ws).eof())
-    return false;
-  out = v;
-  return true;
-}
-
-Background readBackground(const std::string& file) {
-  FloatImage image;
-  try {
-    image = readFloatImage(file);
-  } catch (const InputError& e) {
-    throw InputError(fmt::format("--background: neither R,G,B nor a picture that can be read: {}", e.what()));
-  }
-  Background background{glm::vec3(1.0F), image.width, image.height, {}};
-  const auto channels = static_cast<std::size_t>(image.channels);
-  background.map.reserve(image.pixels.size() / channels * 3);
-  for (std::size_t p = 0; p < image.pixels.size() / channels; ++p)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float value = image.pixels[p * channels + (channels >= 3 ? c : 0)];
-      background.map.push_back(value > 0.0F && std::isfinite(value) ? value : 0.0F);
-    }
-  return background;
-}
-
-void applyBackground(Scene& scene, const std::string& text) {
-  if (text.empty()) return;
-  glm::vec3 radiance;
-  if (!parseRadiance(text, radiance)) {
-    scene.background = readBackground(text);
-    return;
-  }
-  if (!(radiance.r >= 0.0F && radiance.g >= 0.0F && radiance.b >= 0.0F) ||
-      !std::isfinite(radiance.r + radiance.g + radiance.b))
-    throw InputError(fmt::format("--background: '{}': radiance must be finite and not negative", text));
-  scene.background = {};
-  scene.background.radiance = radiance;
-}
-
-}  // namespace
 
 void addSceneOptions(CLI::App& c, SceneOptions& o) {
   c.option_defaults()->group("Scene");
@@ -84,12 +32,11 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
       ->type_name("");
   addText(c, "--scene", [&o](const std::string& v) { o.scene = v; },
           {"NAME|INDEX", "which scene of the file", "the file's default"});
-  addText(
-      c, "--background", [&o](const std::string& v) { o.background = v; },
-      {"R,G,B|FILE",
-       "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr; it "
-       "lights nothing matte (--ambient does)",
-       "as the file says"});
+  addText(c, "--background", [&o](const std::string& v) { o.background = v; },
+          {"R,G,B|FILE",
+           "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr "
+           "(R, G and B of the file, or of its only layer); it lights nothing matte, --ambient does",
+           "as the file says"});
   c.add_flag_callback(
       "--default-lights", [&o] { o.defaultLights = true; },
       "light a file that has neither lights nor a background like a studio [where something "
@@ -119,6 +66,14 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
             "of .png and .jpg: roll highlights off, or cut them; auto: none where all materials are unlit");
 
   c.option_defaults()->group("Light");
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  addReal(
+      c, "--background-rotation", s.backgroundRotation, -kLargest, kLargest, "DEGREES",
+      "turn what surrounds the scene about +Y, counter-clockwise seen from above: 90 brings what was at +X "
+      "to -Z",
+      "0");
+  addReal(c, "--background-strength", s.backgroundStrength, 0, 1e6, "FACTOR",
+          "times the radiance of what surrounds the scene", "1");
   addWhole(c, "--bounces", s.bounces, 1, 4096, "N",
            "backward tracing steps; 1 = direct light only. A note says if much ends there, --stats how much");
   addWhole(c, "--transparent-bounces", s.transparentBounces, 0, 4096, "N",
@@ -219,7 +174,7 @@ Scene loadScene(const SceneOptions& options, Settings& settings, Notices& notice
   settleSize(options, scene, settings);
   if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))
     notices.note("something lies beyond the camera's zfar; --clip-far leaves it out");
-  applyBackground(scene, options.background);
+  applyBackground(scene, options.background, settings, notices);
   if (!settings.ambient) {
     settings.ambient = automaticAmbient(scene);
     notices.note(fmt::format("--ambient auto: {} W/(m² sr)", *settings.ambient));

@@ -2,7 +2,6 @@
 #include "cli/outputs.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -29,8 +28,6 @@ bool hasExtension(const fs::path& file, std::initializer_list<const char*> names
   return std::find(names.begin(), names.end(), extension) != names.end();
 }
 
-bool isExr(const fs::path& file) { return hasExtension(file, {".exr"}); }
-
 /// What libjpeg can write (JPEG_MAX_DIMENSION); beyond it, it ends the process.
 constexpr int kLargestJpeg = 65500;
 
@@ -56,18 +53,6 @@ void writeStream(const fs::path& path, const std::string& text) {
 }
 
 }  // namespace
-
-AovOutput parseAov(const std::string& text, const std::vector<std::string>& names) {
-  const auto equals = text.find('=');
-  const std::string name = text.substr(0, equals);
-  if (equals == std::string::npos || std::find(names.begin(), names.end(), name) == names.end())
-    throw InputError(
-        fmt::format("--aov: '{}' is not NAME=FILE with NAME one of {}", text, fmt::join(names, ", ")));
-  AovOutput aov{name, text.substr(equals + 1)};
-  if (!isExr(aov.file))
-    throw InputError(fmt::format("--aov: '{}' must end in .exr: it holds floats", aov.file.string()));
-  return aov;
-}
 
 void OutputCheck::claim(const std::string& option, const fs::path& file) {
   const auto same = [&](const fs::path& other) {
@@ -142,6 +127,8 @@ void writePicture(const fs::path& file, const FloatImage& radiance, const Look& 
     writeRgb8(file, radiance.width, radiance.height, toneMap(radiance, look.stops, nullptr, look.rollsOff),
               metadata);
 }
+
+bool isExr(const fs::path& file) { return hasExtension(file, {".exr"}); }
 
 bool isToneMapped(const fs::path& file) { return hasExtension(file, {".png", ".jpg", ".jpeg"}); }
 

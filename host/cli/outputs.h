@@ -11,18 +11,6 @@
 
 namespace whittle::cli {
 
-/// One `--aov NAME=FILE`.
-struct AovOutput {
-  std::string name;
-  std::filesystem::path file;
-};
-
-/// What `whittle render --aov` knows.
-inline const std::vector<std::string> kRenderAovs{"depth", "normal", "albedo", "primitive", "samples"};
-
-/// Throws InputError unless it is NAME=FILE.exr with a name among `names`.
-AovOutput parseAov(const std::string& text, const std::vector<std::string>& names);
-
 /// Everything that one command will write, so that the checks happen in one place.
 class OutputCheck {
  public:
@@ -57,6 +45,8 @@ Look lookOf(const FloatImage& radiance, const Scene& scene, const Settings& sett
 /// .exr: linear floats; .png/.jpg: tone-mapped. `metadata` goes into the file.
 void writePicture(const std::filesystem::path& file, const FloatImage& radiance, const Look& look,
                   const ImageMetadata& metadata);
+
+bool isExr(const std::filesystem::path& file);
 
 /// Whether a picture's extension is of a format that holds tone-mapped colours, not radiance: .png, .jpg.
 bool isToneMapped(const std::filesystem::path& file);

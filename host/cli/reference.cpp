@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 
+#include "cli/aovs.h"
 #include "cli/commands.h"
 #include "cli/option_kinds.h"
 #include "cli/options.h"
@@ -29,7 +30,7 @@ struct ReferenceOptions {
 
 void checkOutputs(ReferenceOptions& o) {
   OutputCheck check(o.scene.file, o.settings.width, o.settings.height);
-  for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, {"depth", "primitive"}));
+  for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, kReferenceAovs));
   for (const auto& file : o.outputs) check.picture("--output", file);
   for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
   check.text("--stats", o.stats);
@@ -67,8 +68,10 @@ void writeResults(const ReferenceOptions& o, const Scene& scene, const Reference
                                {"whittle:reference", "double precision"}};
   const Look look = lookOf(result.radiance, scene, o.settings, o.outputs, o.scene.quiet);
   for (const auto& file : o.outputs) writePicture(file, result.radiance, look, metadata);
-  for (const auto& aov : o.aovs)
-    writeExr(aov.file, aov.name == "depth" ? result.depth : result.primitive, metadata);
+  if (!o.aovs.empty()) {
+    const std::map<std::string, FloatImage> aovs{{"depth", result.depth}, {"primitive", result.primitive}};
+    for (const auto& aov : o.aovs) writeAov(aov, result.radiance, aovs, metadata);
+  }
   if (!o.stats.empty()) writeTextFile(o.stats, statsText(o, scene, result, seconds));
 }
 
@@ -110,8 +113,10 @@ void addReference(CLI::App& app, int& status) {
   addSeveral(*c, "-o,--output", o->outputs, "FILE",
              ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times")
       ->required();
-  addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE",
-             "depth|primitive of each pixel's first sample, as .exr; may be given several times");
+  addSeveral(
+      *c, "--aov", o->aovTexts, "NAME=FILE",
+      "depth|primitive of each pixel's first sample, as .exr (channels Z, primitive.V); all: these and "
+      "the picture as layers of one file; may be given several times");
   addFile(*c, "--stats", o->stats, "FILE",
           "settings, ray counts and time as JSON; -: on standard output, instead of the summary");
   c->add_flag("--quiet", o->scene.quiet, "no progress, notes or summary");

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cl/device.h"
+#include "cli/aovs.h"
 #include "cli/build_failure.h"
 #include "cli/commands.h"
 #include "cli/error_options.h"
@@ -146,7 +147,7 @@ void writeResults(const RenderOptions& o, const Scene& scene, RenderResult& resu
   result.stats.settings.exposure = look.stops;
   const ImageMetadata metadata = pictureMetadata(o, result.stats);
   for (const auto& file : o.outputs) writePicture(file, result.radiance, look, metadata);
-  for (const auto& aov : o.aovs) writeExr(aov.file, result.aovs.at(aov.name), metadata);
+  for (const auto& aov : o.aovs) writeAov(aov, result.radiance, result.aovs, metadata);
   result.stats.time.write = since(writing);
   result.stats.phases.push_back({"write", steadySeconds(writing), result.stats.time.write});
   if (trace) {
@@ -211,8 +212,8 @@ void addRender(CLI::App& app, int& status) {
       "none with --profile, --stats, --trace or --aov]");
   addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE",
              "depth|normal|albedo|primitive|samples: of each pixel's first sample, or how many samples it "
-             "has, as .exr; may be "
-             "given several times");
+             "has, as .exr (channels Z, normal.X, albedo.R, primitive.V, …); all: these and the picture as "
+             "layers of one file; may be given several times");
   addFile(*c, "--stats", o->stats, "FILE",
           "statistics as JSON; -: on standard output, instead of the summary");
   c->add_flag("--profile", o->profile, "print time and rate of each stage");

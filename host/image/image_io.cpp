@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
+#include <optional>
 #include <stdexcept>
 
 #include "image/image_codec.h"
+#include "image/radiance_file.h"
 #include "scene/input_error.h"
 #include "scene/whole_file.h"
 
@@ -54,6 +57,24 @@ std::string imageFormatOf(const fs::path& path) {
   return {};
 }
 
+/// All of the file, where it is one of Radiance's; what cannot be read is left to the codec, which says why.
+std::optional<std::vector<std::byte>> radianceBytes(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;  // opening a pipe would wait for its other end
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::byte> bytes(2);
+  const auto readTo = [&](std::size_t from) {
+    return static_cast<bool>(file.read(reinterpret_cast<char*>(bytes.data() + from),
+                                       static_cast<std::streamsize>(bytes.size() - from)));
+  };
+  if (!readTo(0) || !isRadianceFile(bytes)) return std::nullopt;
+  const auto size = fs::file_size(path, error);
+  if (error || size < bytes.size()) return std::nullopt;
+  bytes.resize(size);
+  if (!readTo(2)) throw InputError(fmt::format("{}: cannot be read", path.string()));
+  return bytes;
+}
+
 }  // namespace
 
 void loadImageCodec() { codec(); }
@@ -64,7 +85,10 @@ Image decodeImage(std::span<const std::byte> bytes, const std::string& name) {
 
 Image readImage(const fs::path& path) { return codec().readImage(path); }
 
-FloatImage readFloatImage(const fs::path& path) { return codec().readFloatImage(path); }
+FloatImage readFloatImage(const fs::path& path) {
+  if (const auto bytes = radianceBytes(path)) return decodeRadiance(*bytes, path.string());
+  return codec().readFloatImage(path);
+}
 
 void writeExr(const fs::path& path, const FloatImage& image, const ImageMetadata& metadata,
               const std::vector<std::string>& channelNames) {

@@ -31,8 +31,11 @@ void loadImageCodec();
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name);
 /// Reads an image file to 8-bit RGBA. Throws InputError.
 Image readImage(const std::filesystem::path& path);
-/// Reads .exr, .hdr, .png, … as linear floats (8/16-bit sRGB files are linearised), all channels
-/// up to four. Throws InputError.
+/// Reads .exr, .hdr, .png, … as linear floats, three channels or a grey one; alpha is left out.
+/// Channels are chosen by name: R, G and B of the unnamed layer or of the only one that has them, else Y,
+/// else X, Y and Z of a layer, else the only channel. OpenEXR: the picture is the display window, black where
+/// there are no data. Radiance: turned as its header says, divided by its exposures. PNG: by gAMA or sRGB;
+/// other integers are sRGB unless the file says linear. Throws InputError.
 FloatImage readFloatImage(const std::filesystem::path& path);
 
 /// Key and value written into the file's metadata (EXR attributes, PNG text).

@@ -63,9 +63,14 @@ void checkComparable(const FloatImage& a, const FloatImage& b) {
   }
 }
 
+std::vector<std::uint8_t> codesOf(const FloatImage& image, Shown shown) {
+  return toneMap(image, 0.0F, nullptr, shown == Shown::ToneMapped);
+}
+
 }  // namespace
 
-ImageMetrics compareImages(const FloatImage& a, const FloatImage& reference, float exposureStops) {
+ImageMetrics compareImages(const FloatImage& a, const FloatImage& reference, Shown shown,
+                           Shown referenceShown) {
   checkComparable(a, reference);
   std::vector<RowSums> rows(a.height);
   tbb::parallel_for(0, a.height, [&](int y) { rows[y] = compareRow(a, reference, y); });
@@ -82,7 +87,7 @@ ImageMetrics compareImages(const FloatImage& a, const FloatImage& reference, flo
   if (count == 0) return m;
   m.rmse = std::sqrt(m.rmse / count);
   m.relMse /= count;
-  m.flip = flipMean(toneMap(a, exposureStops), toneMap(reference, exposureStops), a.width, a.height);
+  m.flip = flipMean(codesOf(a, shown), codesOf(reference, referenceShown), a.width, a.height);
   return m;
 }
 

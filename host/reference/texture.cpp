@@ -75,7 +75,8 @@ Vec4 sampleTexture(const Scene& scene, const TextureSlot& slot, const Vec2& uv, 
 Vec3 backgroundRadiance(const Background& background, const Vec3& direction) {
   const Vec3 constant(background.radiance);
   if (background.map.empty()) return constant;
-  const double u = 0.5 + std::atan2(direction.x, -direction.z) / (2 * kPi);
+  const double turns = std::remainder(background.rotation, 360.0) / 360.0;
+  const double u = 0.5 + turns + std::atan2(direction.x, -direction.z) / (2 * kPi);
   const double v = std::acos(std::clamp(direction.y, -1.0, 1.0)) / kPi;
   const Between x = texelsAt(u, background.width, Wrap::Repeat);
   const Between y = texelsAt(v, background.height, Wrap::Clamp);

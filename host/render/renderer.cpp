@@ -3,6 +3,7 @@
 
 #include <tbb/global_control.h>
 
+#include <cmath>
 #include <future>
 
 #include "analysis/radiance_bound.h"
@@ -47,6 +48,11 @@ Compiled compileKernels(OpenDevice& device, const Settings& settings, const Deci
   return compiled;
 }
 
+/// Within the map's width, so that one step around the end is enough; exactly a half where it is not turned.
+float backgroundAhead(const Background& background) {
+  return static_cast<float>(0.5 + std::remainder(background.rotation, 360.0) / 360.0);
+}
+
 device::RenderConstants constantsToDevice(const Scene& scene, const Camera& camera, const Settings& s) {
   const glm::vec3& b = scene.background.radiance;
   return {.background = {b.x, b.y, b.z},
@@ -59,7 +65,8 @@ device::RenderConstants constantsToDevice(const Scene& scene, const Camera& came
           .forward = {camera.forward.x, camera.forward.y, camera.forward.z},
           .zfar = camera.zfar,
           .transparentBounces = static_cast<std::uint32_t>(s.transparentBounces),
-          .ambient = s.ambient.value_or(0.0F)};
+          .ambient = s.ambient.value_or(0.0F),
+          .backgroundAhead = backgroundAhead(scene.background)};
 }
 
 std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& settings,

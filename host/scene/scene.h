@@ -150,8 +150,12 @@ struct Background {
   glm::vec3 radiance{0.0F};  ///< constant; multiplies the map where there is one
   int width = 0, height = 0;
   /// Equirectangular map, linear RGB floats, width·height·3, row 0 at the top (+Y); empty: constant only.
-  /// Direction to (u, v): u = 0.5 + atan2(d.x, -d.z)/(2π), v = acos(d.y)/π. Bilinear, u wraps, v clamps.
+  /// Direction to (u, v): u = 0.5 + atan2(d.x, -d.z)/(2π) + rotation/360, v = acos(d.y)/π. Bilinear, u wraps,
+  /// v clamps.
   std::vector<float> map;
+  /// Degrees about +Y, counter-clockwise seen from above: at 90 what the map has at +X is seen along -Z.
+  /// Finite.
+  double rotation = 0.0;
 };
 
 /// Per-vertex arrays are either empty (no triangle of the scene needs them) or as long as `positions`.

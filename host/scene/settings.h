@@ -38,11 +38,13 @@ constexpr const auto& wordsOf(ImpulseMode) { return kImpulseWords; }
 constexpr const auto& wordsOf(Lanes) { return kLanesWords; }
 
 struct Settings {
-  int width = 640;              ///< pixels
-  int height = 360;             ///< pixels
-  std::string camera = "0";     ///< name or index
-  int bounces = 8;              ///< backward tracing steps; 1 = direct light only
-  int transparentBounces = 64;  ///< surfaces that a ray may pass straight on, besides its bounces
+  int width = 640;                  ///< pixels
+  int height = 360;                 ///< pixels
+  std::string camera = "0";         ///< name or index
+  double backgroundRotation = 0.0;  ///< degrees about +Y, see Background; loading has put it into the scene
+  float backgroundStrength = 1.0F;  ///< factor of the background's radiance; the same
+  int bounces = 8;                  ///< backward tracing steps; 1 = direct light only
+  int transparentBounces = 64;      ///< surfaces that a ray may pass straight on, besides its bounces
   /// What eye and impulse rays make of the backs of single-sided surfaces that light does not pass.
   BackFaces backFaces = BackFaces::Cull;
   bool clipFar = false;  ///< eye rays end at the camera's zfar
@@ -87,6 +89,8 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("camera", s.camera);
   visit("exposure", s.exposure);
   visit("toneMap", s.toneMap);
+  visit("backgroundRotation", s.backgroundRotation);
+  visit("backgroundStrength", s.backgroundStrength);
   visit("bounces", s.bounces);
   visit("transparentBounces", s.transparentBounces);
   visit("backFaces", s.backFaces);

@@ -134,6 +134,7 @@ WHITTLE_STRUCT(RenderConstants) {
   float zfar;               // metres along it: where eye rays end, with FAR_PLANE
   uint transparentBounces;  // surfaces that a ray may pass straight on, besides its bounces
   float ambient;            // radiance from all sides that every lit surface receives, with AMBIENT
+  float backgroundAhead;    // u of the map seen along -Z, in [0, 1]: a half, where it is not turned
 };
 
 // The samples of one batch: pixels [firstPixel, firstPixel + pixels) of the pixel order, times samples

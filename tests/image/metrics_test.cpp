@@ -38,6 +38,17 @@ TEST(Metrics, equalPicturesHaveNoError) {
   EXPECT_EQ(m.differingPixels, 0U);
 }
 
+TEST(Metrics, flipOfCodesHasNoToneMapBeforeIt) {
+  // Lightness 0 against 100: 0.96738 by the paper's formulas (flip_test.cpp), 0.9675 in the published tool.
+  // The tone map rolls white off to 0.9 of its light.
+  const FloatImage black = image(2, 1, 3, std::vector<float>(6, 0.0F)),
+                   white = image(2, 1, 3, std::vector<float>(6, 1.0F));
+  EXPECT_NEAR(compareImages(black, white, Shown::AsItIs, Shown::AsItIs).flip, 0.96738, 5e-6);
+  EXPECT_LT(compareImages(black, white).flip, 0.967);
+  EXPECT_EQ(compareImages(black, white, Shown::AsItIs, Shown::ToneMapped).flip,
+            compareImages(black, white).flip);
+}
+
 TEST(Metrics, oneUlpIsADifference) {
   const FloatImage a = image(1, 2, 1, {1, 0.5F}), b = image(1, 2, 1, {std::nextafter(1.0F, 2.0F), 0.5F});
   EXPECT_EQ(compareImages(a, b).differingPixels, 1U);

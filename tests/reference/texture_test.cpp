@@ -137,5 +137,28 @@ TEST(Background, TheMapSurroundsTheScene) {
       << "u = ½ + atan2(0, −0)/2π";
 }
 
+/// Counter-clockwise seen from above: what lies to the right of the view comes to its middle first.
+TEST(Background, TurnsAboutTheVertical) {
+  Background background;
+  background.radiance = glm::vec3(1);
+  background.width = 4;
+  background.height = 1;
+  for (int i = 0; i < 4; ++i) background.map.insert(background.map.end(), 3, static_cast<float>(i));
+  const auto ahead = [&](double degrees) {
+    background.rotation = degrees;
+    return reference::backgroundRadiance(background, Vec3(0, 0, -1)).r;
+  };
+  // Texel centres lie at u = 1/8, 3/8, 5/8, 7/8; straight ahead is u = 1/2, +x is 3/4.
+  EXPECT_NEAR(ahead(0), 1.5, 1e-12);
+  EXPECT_NEAR(ahead(45), 2, 1e-12);
+  EXPECT_NEAR(ahead(90), 2.5, 1e-12) << "what was at +x";
+  EXPECT_NEAR(ahead(135), 3, 1e-12);
+  EXPECT_NEAR(ahead(180), 1.5, 1e-12) << "texels 3 and 0";
+  EXPECT_NEAR(ahead(-45), 1, 1e-12);
+  EXPECT_NEAR(ahead(225), 0, 1e-12);
+  EXPECT_NEAR(ahead(360e6 + 45), 2, 1e-6);
+  EXPECT_TRUE(std::isfinite(ahead(1e300)));
+}
+
 }  // namespace
 }  // namespace whittle::test

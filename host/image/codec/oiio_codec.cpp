@@ -3,61 +3,20 @@
 // that a full disk is noticed whatever the format's writer does. sRGB decoding follows IEC 61966-2-1.
 #include "image/image_codec.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cerrno>
-#include <cmath>
-#include <cstring>
-#include <fstream>
-#include <memory>
 #include <stdexcept>
-#include <string_view>
-#include <system_error>
 
+#include "image/codec/float_reader.h"
+#include "image/codec/oiio_input.h"
 #include "image/png_chunks.h"
-#include "scene/input_error.h"
 #include "scene/whole_file.h"
 
 namespace whittle {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Larger pictures are taken for corrupt headers: the decoded texels alone would pass 1 GiB.
-constexpr int kMaxTextureSide = 16384;
-constexpr int kMaxFloatSide = 65536;
-constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;
-
-/// What OpenImageIO says, on one line; some of its messages carry several.
-std::string oneLine(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text.empty() ? "no reason given" : text;
-}
-
-OIIO::ImageSpec readHints() {
-  OIIO::ImageSpec hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);  // premultiplying would lose colour where alpha is small
-  return hints;
-}
-
-void checkSize(const OIIO::ImageSpec& spec, int maxSide, const std::string& name) {
-  const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1 || spec.deep) {
-    throw InputError(fmt::format("{}: not a two-dimensional picture", name));
-  }
-  if (spec.width > maxSide || spec.height > maxSide || pixels > kMaxPixels) {
-    throw InputError(fmt::format("{}: {}x{} pixels are too many, at most {} a side and {} in all", name,
-                                 spec.width, spec.height, maxSide, kMaxPixels));
-  }
-}
 
 /// The file's first picture as `channels` interleaved values of type T, at most four.
 template <class T>
@@ -69,21 +28,9 @@ std::vector<T> readPixels(OIIO::ImageInput& input, OIIO::TypeDesc type, int chan
   const std::string said = input.geterror();
   // libjpeg fills what is missing with grey and calls that a warning.
   if (!read || said.find("Premature end") != std::string::npos) {
-    throw InputError(fmt::format("{}: cannot be decoded: {}", name, oneLine(said)));
+    refuseToDecode(name, oneLine(said));
   }
   return pixels;
-}
-
-/// Turns whatever OpenImageIO and the allocator throw into the one exception for unusable input.
-template <class F>
-auto guarded(const std::string& name, F&& read) {
-  try {
-    return read();
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: cannot be decoded: {}", name, oneLine(error.what())));
-  }
 }
 
 /// Grey, grey + alpha, RGB and RGBA to RGBA.
@@ -111,51 +58,13 @@ Image toImage(OIIO::ImageInput& input, const std::string& name) {
   return image;
 }
 
-bool startsWith(std::span<const std::byte> bytes, std::size_t at, std::string_view magic) {
-  return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
-}
-
 /// OpenImageIO's reader for a memory block: a block has no extension, and those in files often lie.
 const char* formatOf(std::span<const std::byte> bytes) {
-  if (startsWith(bytes, 0, "\x89PNG\r\n\x1a\n")) return "png";
+  if (startsWith(bytes, 0, kPngMagic)) return "png";
   if (startsWith(bytes, 0, "\xff\xd8\xff")) return "jpeg";
   if (startsWith(bytes, 0, "RIFF") && startsWith(bytes, 8, "WEBP")) return "webp";
   if (startsWith(bytes, 0, "BM")) return "bmp";
   return nullptr;
-}
-
-std::unique_ptr<OIIO::ImageInput> openFile(const fs::path& path) {
-  const std::string name = path.string();
-  std::error_code error;
-  if (fs::is_directory(path, error)) throw InputError(fmt::format("{}: is a folder, not a picture", name));
-  const int file = ::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0)
-    throw InputError(fmt::format("{}: cannot be read: {}", name, std::generic_category().message(errno)));
-  ::close(file);
-  const OIIO::ImageSpec hints = readHints();
-  auto input = OIIO::ImageInput::open(name, &hints);
-  if (!input) throw InputError(fmt::format("{}: cannot be opened: {}", name, oneLine(OIIO::geterror())));
-  return input;
-}
-
-std::vector<std::byte> readBytes(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::vector<std::byte> bytes(fs::file_size(path));
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
-    throw InputError(fmt::format("{}: cannot be read", path.string()));
-  }
-  return bytes;
-}
-
-float srgbToLinear(float v) { return v <= 0.04045F ? v / 12.92F : std::pow((v + 0.055F) / 1.055F, 2.4F); }
-
-/// Integer files hold sRGB unless they say otherwise; floats are linear already.
-void linearise(FloatImage& image, const OIIO::ImageSpec& spec) {
-  if (spec.format.is_floating_point() || spec.get_string_attribute("oiio:ColorSpace") == "Linear") return;
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    if (static_cast<int>(i % image.channels) != spec.alpha_channel)
-      image.pixels[i] = srgbToLinear(image.pixels[i]);
-  }
 }
 
 /// Encodes in memory, then writes the file whole.
@@ -201,16 +110,8 @@ Image OiioCodec::decodeImage(std::span<const std::byte> bytes, const std::string
     }
     std::vector<std::byte> checked;
     if (format == std::string_view("png")) bytes = checked = texelChunks(bytes, name);
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    auto input = OIIO::ImageInput::create(format);
-    if (!input || !input->set_ioproxy(&memory)) {
-      throw InputError(fmt::format("{}: this OpenImageIO cannot decode {} from memory", name, format));
-    }
-    OIIO::ImageSpec spec;
-    if (!input->open(format, spec, readHints())) {
-      throw InputError(fmt::format("{}: cannot be decoded: {}", name, oneLine(input->geterror())));
-    }
-    return toImage(*input, name);
+    MemoryInput memory(bytes, format, name);
+    return toImage(memory.input(), name);
   });
 }
 
@@ -225,18 +126,7 @@ Image OiioCodec::readImage(const fs::path& path) const {
   });
 }
 
-FloatImage OiioCodec::readFloatImage(const fs::path& path) const {
-  const std::string name = path.string();
-  return guarded(name, [&] {
-    const auto input = openFile(path);
-    const OIIO::ImageSpec& spec = input->spec();
-    checkSize(spec, kMaxFloatSide, name);
-    FloatImage image{spec.width, spec.height, std::min(spec.nchannels, 4), {}};
-    image.pixels = readPixels<float>(*input, OIIO::TypeDesc::FLOAT, image.channels, name);
-    linearise(image, spec);
-    return image;
-  });
-}
+FloatImage OiioCodec::readFloatImage(const fs::path& path) const { return readFloats(path); }
 
 void OiioCodec::writeExr(const fs::path& path, const FloatImage& image, const ImageMetadata& metadata,
                          const std::vector<std::string>& channelNames) const {

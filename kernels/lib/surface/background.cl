@@ -17,7 +17,8 @@ INLINE float3 backgroundRadiance(const SceneView* scene, const RenderConstants* 
 #if HAS(BACKGROUND_MAP)
   if (constants->backgroundWidth > 0) {
     const float cosine = d.y > -1.0f ? (d.y < 1.0f ? d.y : 1.0f) : -1.0f;
-    const float x = (0.5f + atan2(d.x, -d.z) * (0.5f / PI)) * (float)constants->backgroundWidth - 0.5f;
+    const float u = constants->backgroundAhead + atan2(d.x, -d.z) * (0.5f / PI);
+    const float x = u * (float)constants->backgroundWidth - 0.5f;
     const float y = acos(cosine) * (1.0f / PI) * (float)constants->backgroundHeight - 0.5f;
     const float fx = floor(x), fy = floor(y);
     const float wx = x - fx, wy = y - fy;

@@ -1,0 +1,43 @@
+// Auxiliary outputs: --aov NAME=FILE.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "image/image_io.h"
+
+namespace whittle::cli {
+
+/// One `--aov NAME=FILE`.
+struct AovOutput {
+  std::string name;
+  std::filesystem::path file;
+};
+
+/// The name that stands for the picture and every other, in one file of layers.
+inline constexpr const char* kAllAovs = "all";
+
+/// What `whittle render` and `whittle reference` know.
+inline const std::vector<std::string> kRenderAovs{"depth",     "normal",  "albedo",
+                                                  "primitive", "samples", kAllAovs};
+inline const std::vector<std::string> kReferenceAovs{"depth", "primitive", kAllAovs};
+
+/// Throws InputError unless it is NAME=FILE.exr with a name among `names`.
+AovOutput parseAov(const std::string& text, const std::vector<std::string>& names);
+
+/// What compositors look for: Z, normal.X, albedo.R, primitive.V, … No name is a word alone, which some
+/// readers drop.
+std::vector<std::string> channelNamesOf(const std::string& aov);
+
+/// The picture as R, G, B and every output under its channel names, interleaved; all of one size. `names`:
+/// those of the channels, in their order.
+FloatImage layered(const FloatImage& radiance, const std::map<std::string, FloatImage>& aovs,
+                   std::vector<std::string>& names);
+
+/// One output, or all of them. `aovs` has those that the command knows. Throws as writeExr.
+void writeAov(const AovOutput& output, const FloatImage& radiance,
+              const std::map<std::string, FloatImage>& aovs, const ImageMetadata& metadata);
+
+}  // namespace whittle::cli

@@ -1,0 +1,109 @@
+// See background.h.
+#include "cli/background.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "image/image_io.h"
+#include "report/text.h"
+#include "scene/input_error.h"
+
+namespace whittle::cli {
+namespace {
+
+/// "R,G,B", or one number for grey.
+bool parseRadiance(const std::string& text, glm::vec3& out) {
+  std::istringstream in(text);
+  char comma1 = 0, comma2 = 0;
+  glm::vec3 v;
+  if (!(in >> v.r)) return false;
+  if (in.eof()) {
+    out = glm::vec3(v.r);
+    return true;
+  }
+  if (!(in >> comma1 >> v.g >> comma2 >> v.b) || comma1 != ',' || comma2 != ',' || !(in >> std::ws).eof())
+    return false;
+  out = v;
+  return true;
+}
+
+/// The largest finite half: what a file of halves calls infinite was at least this bright.
+constexpr float kLargestHalf = 65504.0F;
+
+/// Texels with a channel of each kind that light cannot have.
+struct Flaws {
+  std::uint64_t notNumbers = 0, negative = 0, infinite = 0;
+};
+
+/// One channel as a sky may have it.
+float mended(float value, bool& isNan, bool& isNegative, bool& isInfinite) {
+  isNan |= std::isnan(value);
+  isNegative |= value < 0.0F;
+  const bool tooBright = std::isinf(value) && value > 0.0F;
+  isInfinite |= tooBright;
+  if (tooBright) return kLargestHalf;
+  return value > 0.0F ? value : 0.0F;
+}
+
+void warnOf(const Flaws& flaws, const std::string& file, std::size_t texels, Notices& notices) {
+  std::vector<std::string> kinds;
+  const auto add = [&](std::uint64_t count, const char* what) {
+    if (count > 0) kinds.push_back(fmt::format("{} {}", formatInteger(count), what));
+  };
+  add(flaws.notNumbers, "with NaN (taken as 0)");
+  add(flaws.negative, "with negative values (taken as 0)");
+  add(flaws.infinite, "with infinite values (taken as 65504)");
+  if (!kinds.empty())
+    notices.warn(fmt::format("--background: {}: of {} texels {}", file, formatInteger(texels),
+                             fmt::join(kinds, ", ")));
+}
+
+Background readBackground(const std::string& file, Notices& notices) {
+  FloatImage image;
+  try {
+    image = readFloatImage(file);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("--background: neither R,G,B nor a picture that can be read: {}", e.what()));
+  }
+  Background background{glm::vec3(1.0F), image.width, image.height, {}};
+  const auto channels = static_cast<std::size_t>(image.channels);
+  const std::size_t texels = image.pixels.size() / channels;
+  background.map.reserve(texels * 3);
+  Flaws flaws;
+  for (std::size_t p = 0; p < texels; ++p) {
+    bool isNan = false, isNegative = false, isInfinite = false;
+    for (std::size_t c = 0; c < 3; ++c)
+      background.map.push_back(
+          mended(image.pixels[p * channels + (channels >= 3 ? c : 0)], isNan, isNegative, isInfinite));
+    flaws.notNumbers += isNan ? 1 : 0;
+    flaws.negative += isNegative ? 1 : 0;
+    flaws.infinite += isInfinite ? 1 : 0;
+  }
+  warnOf(flaws, file, texels, notices);
+  return background;
+}
+
+Background parseBackground(const std::string& text, Notices& notices) {
+  glm::vec3 radiance;
+  if (!parseRadiance(text, radiance)) return readBackground(text, notices);
+  if (!(radiance.r >= 0.0F && radiance.g >= 0.0F && radiance.b >= 0.0F) ||
+      !std::isfinite(radiance.r + radiance.g + radiance.b))
+    throw InputError(fmt::format("--background: '{}': radiance must be finite and not negative", text));
+  Background background;
+  background.radiance = radiance;
+  return background;
+}
+
+}  // namespace
+
+void applyBackground(Scene& scene, const std::string& text, const Settings& settings, Notices& notices) {
+  if (!text.empty()) scene.background = parseBackground(text, notices);
+  scene.background.radiance *= settings.backgroundStrength;
+  scene.background.rotation = settings.backgroundRotation;
+}
+
+}  // namespace whittle::cli

@@ -1,0 +1,18 @@
+// What surrounds the scene: --background, --background-rotation, --background-strength.
+#pragma once
+
+#include <string>
+
+#include "scene/notices.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace whittle::cli {
+
+/// Puts `text` ("R,G,B", one number, or an equirectangular picture; empty: the scene's background stays) into
+/// the scene, then turns and scales it as the settings say. Texels that no sky can have are mended, with one
+/// warning: NaN and negative values count as 0, infinite ones as the largest that half floats have. Throws
+/// InputError that names the option.
+void applyBackground(Scene& scene, const std::string& text, const Settings& settings, Notices& notices);
+
+}  // namespace whittle::cli

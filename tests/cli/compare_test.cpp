@@ -1,0 +1,55 @@
+// compare on pictures for the eye: FLIP of the codes that are in the files.
+#include <gtest/gtest.h>
+
+#include "image/image_io.h"
+#include "run_whittle.h"
+
+namespace whittle::test {
+namespace {
+
+using Json = nlohmann::json;
+
+void writeFlat(const std::filesystem::path& file, std::uint8_t code) {
+  writeRgb8(file, 16, 16, std::vector<std::uint8_t>(std::size_t{16} * 16 * 3, code), {});
+}
+
+Json compared(const Folder& folder, const char* a, const char* b) {
+  const Outcome run = runWhittle({"compare", a, b, "--json"}, {folder.path(), {}});
+  EXPECT_EQ(run.status, 0) << run.err;
+  return Json::parse(run.out);
+}
+
+/// 0.96738 by the paper's formulas, lightness 0 against 100 without chroma (tests/image/flip_test.cpp), and
+/// 0.9675 in the published tool. Any tone map before it makes white darker.
+TEST(CompareCodes, BlackAgainstWhite) {
+  const Folder folder;
+  for (const char* extension : {".png", ".jpg"}) {
+    const std::string black = std::string("black") + extension, white = std::string("white") + extension;
+    writeFlat(folder / black, 0);
+    writeFlat(folder / white, 255);
+    const Json json = compared(folder, black.c_str(), white.c_str());
+    EXPECT_NEAR(json["flip"].get<double>(), 0.96738, 5e-6) << extension;
+    EXPECT_EQ(json["rmse"], 1.0) << extension;
+  }
+}
+
+/// A picture and what a person sees of it differ in radiance, and not to the eye.
+TEST(CompareCodes, RadianceBesideItsOwnToneMap) {
+  const Folder folder;
+  for (const char* map : {"filmic", "none"}) {
+    const Outcome run =
+        runWhittle(smallRender({"-o", "a.exr", "-o", "a.png", "--exposure", "0", "--tone-map", map}),
+                   {folder.path(), {}});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const Outcome mixed = runWhittle({"compare", "a.png", "a.exr", "--json"}, {folder.path(), {}});
+    EXPECT_NE(mixed.err.find("note: one picture is linear"), std::string::npos) << mixed.err;
+    const double flip = Json::parse(mixed.out)["flip"];
+    if (map == std::string("filmic"))
+      EXPECT_EQ(flip, 0.0);
+    else
+      EXPECT_GT(flip, 0.0) << "cut off where the tone map rolls off";
+  }
+}
+
+}  // namespace
+}  // namespace whittle::test

@@ -91,8 +91,9 @@ void addCompare(CLI::App& app, int& status) {
   c->option_defaults()->group("Output");
   c->add_flag("--json", o->json, "as JSON; a number that is not finite is null");
   c->footer(
-      "Of a file with layers R, G and B count, or its only layer. FLIP, at 67 pixels a degree:\n"
-      "of .png and .jpg by their own codes, of radiance after the tone map.\n"
+      "Of a file with layers R, G and B count, or those of its only layer.\n"
+      "FLIP is at 67 pixels a degree: of .png and .jpg by their own codes, of radiance\n"
+      "after the tone map.\n"
       "Status 1 if the pictures have different sizes or numbers of colour channels.\n"
       "Example: whittle compare picture.exr right.exr");
   c->callback([o, &status] { status = runCompare(*o); });

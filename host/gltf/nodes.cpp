@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include "gltf/origin.h"
 
@@ -122,18 +124,34 @@ int chooseScene(const Document& document, const std::optional<std::string>& want
   return 0;
 }
 
-/// A scene may list each root once, and roots only.
-void checkSceneRoots(const Document& document, const Parents& parents, const std::vector<int>& roots) {
-  std::vector<bool> listed(parents.size());
-  for (const int root : roots) {
-    const auto i = static_cast<std::size_t>(root);
-    if (parents[i] >= 0) {
-      document.fail(
-          fmt::format("the scene lists {}, a child of node {}", nodeLabel(document, root), parents[i]));
-    }
-    if (listed[i]) document.fail(fmt::format("the scene lists {} twice", nodeLabel(document, root)));
-    listed[i] = true;
+/// `listed`, what a scene names as its roots, without those that another one of them brings along. glTF wants
+/// roots only, but files name children too, and other readers show them. Such a node is drawn as the child
+/// that it is: its transform is that of its place below its parents, whoever names it (glTF 2.0, 3.5.2), and
+/// a second copy would lie exactly in the first one.
+std::vector<int> distinctRoots(const Document& document, const Parents& parents,
+                               const std::vector<int>& allRoots, const std::vector<int>& listed,
+                               Notices& notices) {
+  std::vector<bool> isListed(parents.size());
+  std::vector<int> children;
+  for (const int root : listed) {
+    if (isListed[at(root)]) document.fail(fmt::format("the scene lists {} twice", nodeLabel(document, root)));
+    isListed[at(root)] = true;
+    if (parents[at(root)] >= 0) children.push_back(root);
   }
+  if (children.empty()) return listed;
+  const std::string more = children.size() > 1 ? fmt::format(" (and {} more)", children.size() - 1) : "";
+  notices.warn(
+      fmt::format("the scene lists {}, a child of node {}: it is drawn once, in its place below that{}",
+                  nodeLabel(document, children[0]), parents[at(children[0])], more));
+  std::vector<bool> comesAlong(parents.size());
+  walk(document.model.nodes, allRoots, [&](int node) {
+    const int parent = parents[at(node)];
+    comesAlong[at(node)] = parent >= 0 && (isListed[at(parent)] || comesAlong[at(parent)]);
+  });
+  std::vector<int> roots;
+  std::copy_if(listed.begin(), listed.end(), std::back_inserter(roots),
+               [&](int node) { return !comesAlong[at(node)]; });
+  return roots;
 }
 
 }  // namespace
@@ -165,8 +183,10 @@ Hierarchy readHierarchy(Document& document, const std::optional<std::string>& sc
   Hierarchy hierarchy;
   hierarchy.toWorld = globalTransforms(document, parents, allRoots, glm::dvec3(0.0));
   hierarchy.scene = chooseScene(document, sceneName, notices);
-  const std::vector<int>& roots = hierarchy.scene < 0 ? allRoots : model.scenes[at(hierarchy.scene)].nodes;
-  checkSceneRoots(document, parents, roots);
+  const std::vector<int> roots =
+      hierarchy.scene < 0
+          ? allRoots
+          : distinctRoots(document, parents, allRoots, model.scenes[at(hierarchy.scene)].nodes, notices);
   walk(model.nodes, roots, [&](int node) { hierarchy.shown.push_back(node); });
   Extents extents(document);
   hierarchy.origin = originFor(document, hierarchy, extents);

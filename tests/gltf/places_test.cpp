@@ -7,9 +7,59 @@
 namespace whittle {
 namespace {
 
+using test::corner;
+using test::expectNear;
 using test::GltfBuilder;
 using test::Json;
 using test::mentions;
+
+/// A node at x = 1 and, below it, one at y = 2 from there with a triangle; the scene lists `roots` of the
+/// two.
+GltfBuilder parentAndChild(const Json& roots) {
+  GltfBuilder b;
+  b.node({{"translation", {1, 0, 0}}, {"children", {1}}}, false);
+  b.node({{"mesh", b.triangleMesh()}, {"translation", {0, 2, 0}}, {"name", "hand"}}, false);
+  b.json["scenes"][0]["nodes"] = roots;
+  return b;
+}
+
+TEST(GltfSceneRoots, AChildAmongThemIsDrawnOnceInItsPlace) {
+  for (const Json& roots : {Json{0, 1}, Json{1, 0}}) {
+    GltfBuilder b = parentAndChild(roots);
+    const Scene scene = b.load();
+    ASSERT_EQ(scene.triangles.size(), 1U) << roots;
+    expectNear(corner(scene, 0, 0), {1, 2, 0}, 0);
+    EXPECT_TRUE(mentions(b.notices.warnings, "node 1 \"hand\", a child of node 0: it is drawn once"))
+        << roots;
+  }
+}
+
+TEST(GltfSceneRoots, AChildWithoutItsParentIsDrawnWhereItsParentPutsIt) {
+  GltfBuilder b = parentAndChild({1});
+  const Scene scene = b.load();
+  ASSERT_EQ(scene.triangles.size(), 1U);
+  expectNear(corner(scene, 0, 0), {1, 2, 0}, 0);
+}
+
+TEST(GltfSceneRoots, EveryNodeOfAChainIsDrawnOnceAndOneWarningCountsThem) {
+  constexpr int kNodes = 20000;
+  GltfBuilder b;
+  const int mesh = b.triangleMesh();
+  for (int i = 0; i < kNodes; ++i) {
+    Json node{{"mesh", mesh}};
+    if (i + 1 < kNodes) node["children"] = {i + 1};
+    b.node(node);
+  }
+  EXPECT_EQ(b.load().triangles.size(), static_cast<std::size_t>(kNodes));
+  ASSERT_EQ(b.notices.warnings.size(), 1U);
+  EXPECT_TRUE(mentions(b.notices.warnings,
+                       "(and 19998 more)"));  // all but the first root and the child that is named
+}
+
+TEST(GltfSceneRoots, TheSameRootTwiceStaysAnError) {
+  GltfBuilder b = parentAndChild({0, 0});
+  EXPECT_NE(b.error().find("the scene lists node 0 twice"), std::string::npos);
+}
 
 /// A triangle whose legs are `size` long, at `x`.
 int triangleAt(GltfBuilder& b, float x, float size, const std::string& name) {

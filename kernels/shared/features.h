@@ -55,6 +55,7 @@
 #define BIT_ONE_SIDED 46                   // back faces left out
 #define BIT_NEAR_PLANE 47                  // near plane
 #define BIT_FAR_PLANE 48                   // far plane
+#define BIT_DEEP_TEXTURES 49               // textures of 16 bits
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <span>
 #include <tuple>
 
 namespace whittle {
@@ -15,7 +16,7 @@ namespace {
 
 /// Four sums side by side, each multiplied along (the odd constant of splitmix64), so
 /// that no step waits for the last.
-std::uint64_t hashOf(const std::vector<std::uint8_t>& bytes) {
+std::uint64_t hashOf(std::span<const std::byte> bytes) {
   constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;
   std::uint64_t sums[4] = {1, 2, 3, 4};
   std::size_t at = 0;
@@ -24,11 +25,19 @@ std::uint64_t hashOf(const std::vector<std::uint8_t>& bytes) {
     std::memcpy(words, bytes.data() + at, sizeof(words));
     for (int k = 0; k < 4; ++k) sums[k] = (sums[k] ^ words[k]) * odd;
   }
-  for (; at < bytes.size(); ++at) sums[0] = (sums[0] ^ bytes[at]) * odd;
+  for (; at < bytes.size(); ++at) sums[0] = (sums[0] ^ std::to_integer<std::uint64_t>(bytes[at])) * odd;
   std::uint64_t all = bytes.size();
   for (const std::uint64_t sum : sums) all = (all ^ (sum >> 32) ^ sum) * odd;
   return all;
 }
+
+/// The 8-bit texels follow from deep ones.
+std::uint64_t hashOf(const Image& image) {
+  return hashOf(image.isDeep() ? std::as_bytes(std::span(image.deepTexels))
+                               : std::as_bytes(std::span(image.texels)));
+}
+
+bool areAlike(const Image& a, const Image& b) { return a.texels == b.texels && a.deepTexels == b.deepTexels; }
 
 struct Key {
   int width, height;
@@ -57,11 +66,11 @@ std::vector<std::uint32_t> firstAlike(const std::vector<Image>& images,
     if (wanted[i] && ofSize[{images[i].width, images[i].height}] > 1)
       keys.push_back({images[i].width, images[i].height, 0, i});
   tbb::parallel_for(std::size_t{0}, keys.size(),
-                    [&](std::size_t k) { keys[k].hash = hashOf(images[keys[k].index].texels); });
+                    [&](std::size_t k) { keys[k].hash = hashOf(images[keys[k].index]); });
   std::sort(keys.begin(), keys.end());
   for (std::size_t k = 1; k < keys.size(); ++k) {
     const std::uint32_t before = first[keys[k - 1].index];
-    if (keys[k].picture() == keys[k - 1].picture() && images[before].texels == images[keys[k].index].texels)
+    if (keys[k].picture() == keys[k - 1].picture() && areAlike(images[before], images[keys[k].index]))
       first[keys[k].index] = before;
   }
   return first;

@@ -91,7 +91,8 @@ std::vector<FeatureNeed> needsOfTextures() {
                                  {TEXTURES, {UV0, UV1}},
                                  {UV0, {TEXTURES}},
                                  {UV1, {TEXTURES}},
-                                 {NEAREST_FILTER, {TEXTURES}}};
+                                 {NEAREST_FILTER, {TEXTURES}},
+                                 {DEEP_TEXTURES, {TEXTURES}}};
 #undef WHITTLE_FEATURE
 #define WHITTLE_LIST(...) {__VA_ARGS__}
 #define WHITTLE_NEEDS(slot, FEATURE, encoding, factor, OTHERS) \

@@ -47,6 +47,17 @@ class Needs {
     });
   }
 
+  /// Whether a slot of linear values reads an image of more than 8 bits.
+  bool deepTextures() const {
+    return anyMaterial([&](const Material& m) {
+      for (std::size_t i = 0; i < kTextureSlots.size(); ++i) {
+        const TextureSlot& slot = m.*kTextureSlots[i];
+        if (slot.used() && readsDeepTexels(imageOf(slot), kSlotIsLinear[i])) return true;
+      }
+      return false;
+    });
+  }
+
   bool lit() const { return !pruned.lights.empty(); }
   /// A question of material_predicates.h that depends on what counts as a mirror.
   bool anyMaterial(bool (*asked)(const Material&, float)) const {
@@ -64,6 +75,9 @@ class Needs {
   }
   bool twoImpulses() const {
     return impulses() && settings.impulses == ImpulseMode::All && anyMaterial(canSendTwoImpulses);
+  }
+  const Image& imageOf(const TextureSlot& slot) const {
+    return scene.images[pruned.images[static_cast<std::size_t>(slot.image)]];
   }
   bool tree() const {
     if (settings.search != Search::Auto) return settings.search == Search::Tree;
@@ -95,6 +109,7 @@ std::vector<Question> geometryQuestions(const Needs& n) {
        "no texture reads a second UV set"},
       {F::NEAREST_FILTER, n.anySlot([](const TextureSlot& s) { return s.filter == Filter::Nearest; }),
        "every texture is filtered"},
+      {F::DEEP_TEXTURES, n.deepTextures(), "no map has more than 8 bits"},
   };
 }
 

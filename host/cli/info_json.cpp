@@ -4,6 +4,7 @@
 
 #include "cli/info_report.h"
 #include "report/json_float.h"
+#include "scene/camera.h"
 #include "wavefront/stages.h"
 
 namespace whittle::cli {
@@ -12,11 +13,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json toJson(const glm::vec3& v) { return {jsonFloat(v.x), jsonFloat(v.y), jsonFloat(v.z)}; }
-/// A point of the scene in the file's coordinates.
+/// A point of the scene in the file's coordinates; all that a double holds of it.
 Json toJson(const glm::vec3& p, const glm::dvec3& origin) {
   if (origin == glm::dvec3(0.0)) return toJson(p);
   return {static_cast<double>(p.x) + origin.x, static_cast<double>(p.y) + origin.y,
           static_cast<double>(p.z) + origin.z};
+}
+/// Box of the triangles in the file's coordinates; null where there are none.
+Json boundsJson(const Scene& scene) {
+  if (scene.triangles.empty()) return nullptr;
+  const Bounds box = boundsOf(scene);
+  return {{"min", toJson(glm::vec3(box.lo), scene.origin)}, {"max", toJson(glm::vec3(box.hi), scene.origin)}};
 }
 /// JSON has no infinity: null for "no limit".
 Json finiteOrNull(float value) { return std::isfinite(value) ? Json(jsonFloat(value)) : Json(nullptr); }
@@ -101,6 +108,7 @@ Json infoJson(const InfoReport& r) {
             {"vertices", scene.positions.size()},
             {"materials", scene.materials.size()},
             {"textures", scene.images.size()},
+            {"bounds", boundsJson(scene)},
             {"lights", lightsJson(scene)},
             {"cameras", camerasJson(scene)},
             {"background", backgroundJson(scene.background)},

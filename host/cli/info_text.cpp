@@ -10,6 +10,7 @@
 #include "cli/info_report.h"
 #include "cli/viewpoint.h"
 #include "report/text.h"
+#include "scene/camera.h"
 
 namespace whittle::cli {
 namespace {
@@ -22,6 +23,26 @@ std::string vectorText(const glm::vec3& v) {
   const auto number = [&](float c) { return formatReal(std::abs(c) < tiny ? 0.0 : static_cast<double>(c)); };
   return fmt::format("({}, {}, {})", number(v.x), number(v.y), number(v.z));
 }
+
+/// Shows places in the file's coordinates, told apart as finely as the scene's size asks for.
+class Places {
+ public:
+  explicit Places(const Scene& scene) : box_(boundsOf(scene)), origin_(scene.origin) {}
+
+  glm::dvec3 size() const { return box_.hi - box_.lo; }
+  const glm::dvec3& origin() const { return origin_; }
+  std::string operator()(const glm::dvec3& place) const {
+    const glm::dvec3 p = place + origin_;
+    const double across = glm::length(size());
+    return fmt::format("({}, {}, {})", formatCoordinate(p.x, across), formatCoordinate(p.y, across),
+                       formatCoordinate(p.z, across));
+  }
+  std::string bounds() const { return fmt::format("from {} to {}", (*this)(box_.lo), (*this)(box_.hi)); }
+
+ private:
+  Bounds box_;
+  glm::dvec3 origin_;
+};
 
 std::string entry(std::size_t index, const std::string& name, std::size_t nameColumns,
                   const std::string& text) {
@@ -36,20 +57,19 @@ std::size_t widestName(const Items& items) {
   return std::min<std::size_t>(widest, 24);
 }
 
-std::string cameraText(const Camera& c, const glm::dvec3& origin) {
+std::string cameraText(const Camera& c, const Places& places) {
   const std::string lens =
       c.orthographic ? fmt::format("orthographic, {} m high", formatReal(2.0 * static_cast<double>(c.ymag)))
                      : fmt::format("perspective, {:.1f}° high", static_cast<double>(c.yfov) * kDegrees);
-  const glm::vec3 at(glm::dvec3(c.position) + origin);
-  const std::string again = viewpointText(c, origin);
-  return fmt::format("{}, at {} m, looking {}{}", lens, vectorText(at), vectorText(c.forward),
+  const std::string again = viewpointText(c, places.origin());
+  return fmt::format("{}, at {} m, looking {}{}", lens, places(c.position), vectorText(c.forward),
                      again.empty() ? "" : "; " + again);
 }
 
-std::string lightText(const Light& l, const glm::dvec3& origin) {
+std::string lightText(const Light& l, const Places& places) {
   const LightType& type = typeOf(l.kind);
   std::string text = fmt::format("{}, {} {}", type.word, vectorText(l.intensity), type.unit);
-  if (type.isPlaced) text += fmt::format(", at {} m", vectorText(glm::vec3(glm::dvec3(l.position) + origin)));
+  if (type.isPlaced) text += fmt::format(", at {} m", places(l.position));
   if (type.isAimed) text += fmt::format(", shining {}", vectorText(l.direction));
   if (type.hasCone)
     text += fmt::format(", half angle {:.1f}° to {:.1f}°", static_cast<double>(l.innerConeAngle) * kDegrees,
@@ -58,18 +78,10 @@ std::string lightText(const Light& l, const glm::dvec3& origin) {
   return text + (l.castsShadows ? "" : ", casts no shadows");
 }
 
-std::string boundsText(const Scene& scene) {
-  if (scene.triangles.empty()) return "";
-  glm::vec3 lo = scene.positions[scene.triangles.front().v0], hi = lo;
-  for (const auto& t : scene.triangles)
-    for (const std::uint32_t v : {t.v0, t.v1, t.v2})
-      lo = glm::min(lo, scene.positions[v]), hi = glm::max(hi, scene.positions[v]);
-  const glm::vec3 size = hi - lo;
-  const std::string text =
-      fmt::format("{} × {} × {} m, from {} to {}", formatReal(static_cast<double>(size.x)),
-                  formatReal(static_cast<double>(size.y)), formatReal(static_cast<double>(size.z)),
-                  vectorText(glm::vec3(glm::dvec3(lo) + scene.origin)),
-                  vectorText(glm::vec3(glm::dvec3(hi) + scene.origin)));
+std::string boundsText(const Places& places) {
+  const glm::dvec3 size = places.size();
+  const std::string text = fmt::format("{} × {} × {} m, {}", formatReal(size.x), formatReal(size.y),
+                                       formatReal(size.z), places.bounds());
   return "  " + wrapped(text, 78, 4) + "\n";
 }
 
@@ -80,14 +92,15 @@ std::string contents(const Scene& s) {
                         formatSome(s.materials.size(), "material", "materials"),
                         formatSome(s.images.size(), "texture image", "texture images"));
   std::string out = "What is in it\n  " + wrapped(counts, 78, 2) + "\n";
-  out += boundsText(s);
+  const Places places(s);
+  if (!s.triangles.empty()) out += boundsText(places);
   out += fmt::format("  {}\n", formatSome(s.cameras.size(), "camera", "cameras"));
   for (std::size_t i = 0; i < s.cameras.size(); ++i)
-    out += entry(i, s.cameras[i].name, widestName(s.cameras), cameraText(s.cameras[i], s.origin));
+    out += entry(i, s.cameras[i].name, widestName(s.cameras), cameraText(s.cameras[i], places));
   out += fmt::format("  {}\n", formatSome(s.lights.size(), "light", "lights"));
   constexpr std::size_t kShown = 20;
   for (std::size_t i = 0; i < std::min(s.lights.size(), kShown); ++i)
-    out += entry(i, s.lights[i].name, widestName(s.lights), lightText(s.lights[i], s.origin));
+    out += entry(i, s.lights[i].name, widestName(s.lights), lightText(s.lights[i], places));
   if (s.lights.size() > kShown)
     out += fmt::format("    … and {} more (--json has them all)\n", formatInteger(s.lights.size() - kShown));
   const auto& b = s.background;

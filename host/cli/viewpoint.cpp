@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "cli/option_kinds.h"
@@ -38,8 +40,21 @@ glm::dvec3 parsePoint(const std::string& option, const std::string& text) {
   return {n[0], n[1], n[2]};
 }
 
-/// As short as it can be and still the same number in single precision.
-std::string pointText(const glm::dvec3& p) { return fmt::format("{:.9g},{:.9g},{:.9g}", p.x, p.y, p.z); }
+/// As short as it can be from nine digits on, and still within `off` of the value where a double can be.
+std::string numberText(double value, double off) {
+  constexpr int kShortest = 9, kExact = 17;  // digits that give back any float, any double
+  for (int digits = kShortest; digits < kExact; ++digits) {
+    std::string text = fmt::format("{:.{}g}", value, digits);
+    if (std::abs(std::stod(text) - value) <= off) return text;
+  }
+  return fmt::format("{:.{}g}", value, kExact);
+}
+
+std::string pointText(const glm::dvec3& p, const glm::dvec3& off) {
+  return fmt::format("{},{},{}", numberText(p.x, off.x), numberText(p.y, off.y), numberText(p.z, off.z));
+}
+
+constexpr double kFloatRounding = 0x1p-24;  ///< relative
 
 }  // namespace
 
@@ -84,10 +99,13 @@ std::optional<Viewpoint> chosenViewpoint(const ViewpointOptions& o) {
 
 std::string viewpointText(const Camera& c, const glm::dvec3& origin) {
   if (c.orthographic) return "";
-  const glm::dvec3 eye = glm::dvec3(c.position) + origin;
-  return fmt::format("--eye {} --look-at {} --up {} --fov {:.7g}", pointText(eye),
-                     pointText(eye + glm::dvec3(c.forward)), pointText(glm::dvec3(c.up)),
-                     static_cast<double>(c.yfov) * kToDegrees);
+  // Far from the file's origin it takes more digits: read back and brought to the scene's origin, the eye
+  // must round to the same floats, and what it looks at, a metre away, must be nearer than they can tell.
+  const glm::dvec3 place(c.position), eye = place + origin;
+  const glm::dvec3 offEye = 0.25 * kFloatRounding * glm::abs(place), offTarget(0.1 * kFloatRounding);
+  return fmt::format("--eye {} --look-at {} --up {} --fov {:.7g}", pointText(eye, offEye),
+                     pointText(eye + glm::dvec3(c.forward), offTarget),
+                     pointText(glm::dvec3(c.up), offTarget), static_cast<double>(c.yfov) * kToDegrees);
 }
 
 }  // namespace whittle::cli

@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
-#include <map>
+#include <iterator>
 
-#include "gltf/accessor.h"
+#include "gltf/origin.h"
 
 namespace whittle::gltf {
 
@@ -98,77 +98,6 @@ std::vector<glm::dmat4> globalTransforms(const Document& document, const Parents
   return toWorld;
 }
 
-struct Extent {
-  glm::dvec3 lo{std::numeric_limits<double>::infinity()};
-  glm::dvec3 hi{-std::numeric_limits<double>::infinity()};
-  void grow(const glm::dvec3& p) {
-    if (!(glm::length(p) < 1e30)) return;
-    lo = glm::min(lo, p);
-    hi = glm::max(hi, p);
-  }
-  bool isEmpty() const { return !(lo.x <= hi.x); }
-};
-
-/// Box of an accessor's points. What it says of them itself may be missing or wrong, so they are read.
-Extent extentOf(Document& document, int accessor) {
-  Extent extent;
-  if (componentCount(accessorAt(document, accessor)) != 3) return extent;  // refused later
-  const std::vector<float> values = readFloats(document, accessor);
-  for (std::size_t i = 0; i + 2 < values.size(); i += 3)
-    extent.grow(glm::dvec3(values[i], values[i + 1], values[i + 2]));
-  return extent;
-}
-
-/// Where the shown meshes lie.
-Extent extentOf(Document& document, const Hierarchy& hierarchy) {
-  Extent all;
-  std::map<int, Extent> known;
-  for (const int node : hierarchy.shown) {
-    const int mesh = document.model.nodes[static_cast<std::size_t>(node)].mesh;
-    if (mesh < 0) continue;
-    const int skin = document.model.nodes[static_cast<std::size_t>(node)].skin;
-    if (skin >= 0) {  // lies where its joints do, not where its node does
-      for (const int joint : document.model.skins[static_cast<std::size_t>(skin)].joints)
-        all.grow(glm::dvec3(hierarchy.toWorld[static_cast<std::size_t>(joint)][3]));
-      continue;
-    }
-    const glm::dmat4& toWorld = hierarchy.toWorld[static_cast<std::size_t>(node)];
-    for (const auto& primitive : document.model.meshes[static_cast<std::size_t>(mesh)].primitives) {
-      const auto found = primitive.attributes.find("POSITION");
-      if (found == primitive.attributes.end()) continue;
-      const int accessor = found->second;
-      const auto at = known.find(accessor);
-      const Extent local = at != known.end()
-                               ? at->second
-                               : known.emplace(accessor, extentOf(document, accessor)).first->second;
-      if (local.isEmpty()) continue;
-      for (int corner = 0; corner < 8; ++corner) {
-        glm::dvec4 p(1.0);
-        for (int a = 0; a < 3; ++a) p[a] = (corner >> a & 1 ? local.hi : local.lo)[a];
-        all.grow(glm::dvec3(toWorld * p));
-      }
-    }
-  }
-  return all;
-}
-
-/// 0, but where the scene lies so far from there, seen from its own size, that rounding would show. Then the
-/// place of the first node that lies about where the scene does, so that a scene that was moved as a whole
-/// comes out as before.
-glm::dvec3 originFor(Document& document, const Hierarchy& hierarchy) {
-  constexpr double kFar = 64;  // of its size: rounding is a 260 000th of the size there
-  const Extent extent = extentOf(document, hierarchy);
-  if (extent.isEmpty()) return glm::dvec3(0.0);
-  const glm::dvec3 centre = 0.5 * (extent.lo + extent.hi);
-  const double size = glm::length(extent.hi - extent.lo);
-  if (!(glm::length(centre) > kFar * size)) return glm::dvec3(0.0);
-  for (const int node : hierarchy.shown) {
-    const glm::dvec3 place(hierarchy.toWorld[static_cast<std::size_t>(node)][3]);
-    if (glm::length(place - centre) <= kFar * size) return place;
-  }
-  return glm::round(centre);
-}
-
 int sceneCalled(const Document& document, const std::string& wanted) {
   const auto& scenes = document.model.scenes;
   std::string names;
@@ -195,18 +124,34 @@ int chooseScene(const Document& document, const std::optional<std::string>& want
   return 0;
 }
 
-/// A scene may list each root once, and roots only.
-void checkSceneRoots(const Document& document, const Parents& parents, const std::vector<int>& roots) {
-  std::vector<bool> listed(parents.size());
-  for (const int root : roots) {
-    const auto i = static_cast<std::size_t>(root);
-    if (parents[i] >= 0) {
-      document.fail(
-          fmt::format("the scene lists {}, a child of node {}", nodeLabel(document, root), parents[i]));
-    }
-    if (listed[i]) document.fail(fmt::format("the scene lists {} twice", nodeLabel(document, root)));
-    listed[i] = true;
+/// `listed`, what a scene names as its roots, without those that another one of them brings along. glTF wants
+/// roots only, but files name children too, and other readers show them. Such a node is drawn as the child
+/// that it is: its transform is that of its place below its parents, whoever names it (glTF 2.0, 3.5.2), and
+/// a second copy would lie exactly in the first one.
+std::vector<int> distinctRoots(const Document& document, const Parents& parents,
+                               const std::vector<int>& allRoots, const std::vector<int>& listed,
+                               Notices& notices) {
+  std::vector<bool> isListed(parents.size());
+  std::vector<int> children;
+  for (const int root : listed) {
+    if (isListed[at(root)]) document.fail(fmt::format("the scene lists {} twice", nodeLabel(document, root)));
+    isListed[at(root)] = true;
+    if (parents[at(root)] >= 0) children.push_back(root);
   }
+  if (children.empty()) return listed;
+  const std::string more = children.size() > 1 ? fmt::format(" (and {} more)", children.size() - 1) : "";
+  notices.warn(
+      fmt::format("the scene lists {}, a child of node {}: it is drawn once, in its place below that{}",
+                  nodeLabel(document, children[0]), parents[at(children[0])], more));
+  std::vector<bool> comesAlong(parents.size());
+  walk(document.model.nodes, allRoots, [&](int node) {
+    const int parent = parents[at(node)];
+    comesAlong[at(node)] = parent >= 0 && (isListed[at(parent)] || comesAlong[at(parent)]);
+  });
+  std::vector<int> roots;
+  std::copy_if(listed.begin(), listed.end(), std::back_inserter(roots),
+               [&](int node) { return !comesAlong[at(node)]; });
+  return roots;
 }
 
 }  // namespace
@@ -231,20 +176,23 @@ std::string nodeLabel(const Document& document, int node) {
 Hierarchy readHierarchy(Document& document, const std::optional<std::string>& sceneName, Notices& notices) {
   const auto& model = document.model;
   const Parents parents = findParents(document);
-  std::vector<int> roots;
+  std::vector<int> allRoots;
   for (std::size_t i = 0; i < parents.size(); ++i) {
-    if (parents[i] < 0) roots.push_back(static_cast<int>(i));
+    if (parents[i] < 0) allRoots.push_back(static_cast<int>(i));
   }
   Hierarchy hierarchy;
-  const std::vector<int> allRoots = roots;
   hierarchy.toWorld = globalTransforms(document, parents, allRoots, glm::dvec3(0.0));
   hierarchy.scene = chooseScene(document, sceneName, notices);
-  if (hierarchy.scene >= 0) roots = model.scenes[static_cast<std::size_t>(hierarchy.scene)].nodes;
-  checkSceneRoots(document, parents, roots);
+  const std::vector<int> roots =
+      hierarchy.scene < 0
+          ? allRoots
+          : distinctRoots(document, parents, allRoots, model.scenes[at(hierarchy.scene)].nodes, notices);
   walk(model.nodes, roots, [&](int node) { hierarchy.shown.push_back(node); });
-  hierarchy.origin = originFor(document, hierarchy);
+  Extents extents(document);
+  hierarchy.origin = originFor(document, hierarchy, extents);
   if (hierarchy.origin != glm::dvec3(0.0))
     hierarchy.toWorld = globalTransforms(document, parents, allRoots, hierarchy.origin);
+  warnOfCoarsePositions(document, hierarchy, extents, notices);
   return hierarchy;
 }
 

@@ -112,6 +112,16 @@ int TextureReader::decode(std::size_t image) {
   return images_[image];
 }
 
+void TextureReader::dropUnreadTexels() {
+  std::vector<bool> isRead(scene_.images.size());
+  for (const Material& material : scene_.materials)
+    for (std::size_t i = 0; i < kTextureSlots.size(); ++i)
+      if (const TextureSlot& slot = material.*kTextureSlots[i]; slot.used() && kSlotIsLinear[i])
+        isRead[static_cast<std::size_t>(slot.image)] = true;
+  for (std::size_t i = 0; i < isRead.size(); ++i)
+    if (!isRead[i]) std::vector<std::uint16_t>().swap(scene_.images[i].deepTexels);
+}
+
 Image TextureReader::read(std::size_t image) {
   const Json& description = document_.json["images"][image];
   const std::string label = fmt::format("{} (image {})", document_.name, image);

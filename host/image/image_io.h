@@ -26,10 +26,10 @@ struct FloatImage {
 /// std::runtime_error where its library is missing, as do all functions below that need it.
 void loadImageCodec();
 
-/// Decodes a PNG/JPEG/… held in memory (a texture inside a .glb) to 8-bit RGBA.
-/// Throws InputError naming `name`.
+/// Decodes a PNG/JPEG/… held in memory (a texture inside a .glb) to 8-bit RGBA, and beside it to 16-bit RGBA
+/// where the file holds more than 8 bits tell. Throws InputError naming `name`.
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name);
-/// Reads an image file to 8-bit RGBA. Throws InputError.
+/// Reads an image file likewise. Throws InputError.
 Image readImage(const std::filesystem::path& path);
 /// Reads .exr, .hdr, .png, … as linear floats, three channels or a grey one; alpha is left out.
 /// Channels are chosen by name: R, G and B of the unnamed layer or of the only one that has them, else Y,

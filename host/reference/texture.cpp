@@ -26,7 +26,12 @@ int wrapTexel(int i, int size, Wrap wrap) {
 }
 
 Vec4 texel(const Image& image, int x, int y, Encoding encoding) {
-  const std::uint8_t* rgba = &image.texels[4 * (static_cast<std::size_t>(y) * image.width + x)];
+  const std::size_t first = 4 * (static_cast<std::size_t>(y) * image.width + x);
+  if (readsDeepTexels(image, encoding == Encoding::Linear)) {
+    const std::uint16_t* deep = &image.deepTexels[first];
+    return Vec4(deep[0], deep[1], deep[2], deep[3]) / 65535.0;
+  }
+  const std::uint8_t* rgba = &image.texels[first];
   Vec4 value = Vec4(rgba[0], rgba[1], rgba[2], rgba[3]) / 255.0;
   for (int i = 0; i < 3 && encoding == Encoding::Srgb; ++i) value[i] = srgbToLinear(value[i]);
   return value;

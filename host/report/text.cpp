@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace whittle {
@@ -37,6 +38,16 @@ std::string formatInteger(std::uint64_t count) {
 }
 
 std::string formatReal(double value) { return fmt::format("{:.4g}", value == 0.0 ? 0.0 : value); }
+
+std::string formatCoordinate(double value, double size) {
+  constexpr int kFewest = 4, kMost = 16;  // significant digits; a double has no more
+  // What is far below the size is rounding of the file's transformations.
+  if (!(std::abs(value) > 1e-5 * size)) return "0";
+  if (!(size > 0.0)) return formatReal(value);
+  const double places = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(size));
+  return fmt::format("{:.{}g}", value,
+                     static_cast<int>(std::clamp(places + kFewest, 1.0 * kFewest, 1.0 * kMost)));
+}
 
 std::string formatSeconds(double seconds) {
   if (seconds < 1.0) return fmt::format("{:.3f} s", seconds);

@@ -13,6 +13,9 @@ namespace whittle {
 std::string formatInteger(std::uint64_t count);
 /// Four significant digits without trailing zeros; no "-0".
 std::string formatReal(double value);
+/// A coordinate of something in a scene `size` metres across: as formatReal, with as many digits more as tell
+/// it from a place a thousandth of the size away. 0 below a hundred-thousandth of it.
+std::string formatCoordinate(double value, double size);
 /// "0.8 s", "3:05 min", "2:10 h".
 std::string formatSeconds(double seconds);
 /// "12.3 Mrays/s", "850 krays/s".

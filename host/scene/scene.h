@@ -8,20 +8,25 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernels/shared/scene_tables.h"
 
 namespace whittle {
 
-/// An 8-bit image, row 0 at the top (glTF's v = 0). `texels` holds width·height·4 bytes RGBA, not
-/// premultiplied. Whether the colour channels are sRGB-encoded is decided by the slot that uses it, not by
-/// the image.
+/// An image, row 0 at the top (glTF's v = 0). `texels` holds width·height·4 bytes RGBA, not premultiplied.
+/// Whether the colour channels are sRGB-encoded is decided by the slot that uses it, not by the image.
 struct Image {
   std::string name;
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> texels;
+  /// The same texels in 16 bits each, 65535 for 1, where the file has them finer than 8 bits tell: what slots
+  /// of linear values read. Else empty.
+  std::vector<std::uint16_t> deepTexels = {};
+
+  bool isDeep() const { return !deepTexels.empty(); }
 };
 
 enum class Wrap : std::uint8_t { Repeat, Clamp, Mirror };
@@ -39,6 +44,10 @@ struct TextureSlot {
 
   bool used() const { return image >= 0; }
 };
+
+/// Whether a slot reads the image's 16-bit texels. Colours are decoded from 8 bits: sRGB spends those where
+/// the eye does.
+inline bool readsDeepTexels(const Image& image, bool isLinear) { return isLinear && image.isDeep(); }
 
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
@@ -80,6 +89,13 @@ inline constexpr std::array kTextureSlots{
 #define WHITTLE_SLOT(slot, FEATURE, encoding, factor, OTHERS) &Material::slot,
     WHITTLE_TEXTURE_SLOTS(WHITTLE_SLOT)
 #undef WHITTLE_SLOT
+};
+
+/// Of the same slots: whether they hold linear values (true) or sRGB-encoded colours.
+inline constexpr std::array kSlotIsLinear{
+#define WHITTLE_LINEAR(slot, FEATURE, encoding, factor, OTHERS) std::string_view(#encoding) == "LINEAR",
+    WHITTLE_TEXTURE_SLOTS(WHITTLE_LINEAR)
+#undef WHITTLE_LINEAR
 };
 
 /// Corners by index into Scene's vertex arrays, counter-clockwise seen from the front (already flipped for

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "kernels/shared/layout.h"
 #include "scene/material_predicates.h"
@@ -29,17 +31,18 @@ class TextureAtlas {
   TextureAtlas(const Scene& scene, const PrunedScene& pruned) : scene_(scene), pruned_(pruned) {}
 
   /// Index of the slot on the device, -1 for an empty one.
-  int add(const TextureSlot& slot) {
+  int add(const TextureSlot& slot, bool isLinear) {
     if (!slot.used()) return -1;
     const Image& image = imageOf(slot.image);
+    const bool isDeep = readsDeepTexels(image, isLinear);
     device::DeviceTexture t{};
     std::copy(slot.transform.begin(), slot.transform.end(), t.transform);
-    t.firstTexel = firstTexel(slot.image);
+    t.firstTexel = firstTexel(slot.image, isDeep);
     t.width = image.width;
     t.height = image.height;
     t.wrapS = static_cast<std::uint32_t>(slot.wrapS);
     t.wrapT = static_cast<std::uint32_t>(slot.wrapT);
-    t.nearest = slot.filter == Filter::Nearest;
+    t.flags = (slot.filter == Filter::Nearest ? TEXTURE_NEAREST : 0U) | (isDeep ? TEXTURE_DEEP : 0U);
     t.uvSet = static_cast<std::uint32_t>(slot.uvSet);
     return indexOf(t);
   }
@@ -60,21 +63,27 @@ class TextureAtlas {
     return static_cast<int>(slots.size()) - 1;
   }
 
-  std::uint32_t firstTexel(int index) {
-    const auto [at, isNew] = first_.try_emplace(index, static_cast<std::uint32_t>(texels.size()));
-    if (isNew) {
-      const auto& bytes = imageOf(index).texels;
-      const std::size_t begin = texels.size();
-      texels.resize(begin + bytes.size() / 4);
-      std::memcpy(texels.data() + begin, bytes.data(), bytes.size() / 4 * 4);
-    }
+  /// An image that colours and other values read is there in both forms.
+  std::uint32_t firstTexel(int index, bool isDeep) {
+    const auto [at, isNew] = first_.try_emplace({index, isDeep}, static_cast<std::uint32_t>(texels.size()));
+    const Image& image = imageOf(index);
+    if (isNew) isDeep ? append(image.deepTexels) : append(image.texels);
     return at->second;
+  }
+
+  /// Words as they lie in memory, the first channel lowest.
+  template <typename Channel>
+  void append(const std::vector<Channel>& channels) {
+    static_assert(std::endian::native == std::endian::little);
+    const std::size_t begin = texels.size(), words = channels.size() * sizeof(Channel) / 4;
+    texels.resize(begin + words);
+    std::memcpy(texels.data() + begin, channels.data(), words * 4);
   }
 
   const Scene& scene_;
   const PrunedScene& pruned_;
-  std::map<int, std::uint32_t> first_;          ///< texel, by image
-  std::unordered_map<std::string, int> known_;  ///< slots by their bits
+  std::map<std::pair<int, bool>, std::uint32_t> first_;  ///< word, by image and whether it is deep
+  std::unordered_map<std::string, int> known_;           ///< slots by their bits
 };
 
 static_assert(static_cast<int>(Wrap::Repeat) == WRAP_REPEAT && static_cast<int>(Wrap::Clamp) == WRAP_CLAMP &&
@@ -82,12 +91,15 @@ static_assert(static_cast<int>(Wrap::Repeat) == WRAP_REPEAT && static_cast<int>(
 
 void copy3(float* out, const glm::vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
+constexpr bool isLinear(int encoding) { return encoding == device::LINEAR; }
+
 device::DeviceMaterial toDevice(const Material& m, TextureAtlas& atlas) {
   device::DeviceMaterial d{};
 #define WHITTLE_VECTOR(name, size) \
   for (int k = 0; k < size; ++k) d.name[k] = m.name[k];
 #define WHITTLE_SCALAR(name) d.name = m.name;
-#define WHITTLE_INDEX(slot, FEATURE, encoding, factor, OTHERS) d.slot = atlas.add(m.slot);
+#define WHITTLE_INDEX(slot, FEATURE, encoding, factor, OTHERS) \
+  d.slot = atlas.add(m.slot, isLinear(device::slot##Encoding));
   WHITTLE_MATERIAL_FACTORS(WHITTLE_VECTOR, WHITTLE_SCALAR)
   WHITTLE_TEXTURE_SLOTS(WHITTLE_INDEX)
 #undef WHITTLE_VECTOR

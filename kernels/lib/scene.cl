@@ -14,7 +14,7 @@ typedef struct {
   __global const float* colors;              // [4 vertices] linear RGBA
   __global const DeviceMaterial* materials;  // [materials]
   __global const DeviceTexture* textures;    // [texture slots]
-  __global const uint* texels;               // RGBA8
+  __global const uint* texels;               // RGBA8, or RG16 and BA16
   __global const float* linearFromSrgb;      // [256]
   __global const DeviceLight* lights;        // [lights]
   __global const float* background;          // [3 width height] equirectangular

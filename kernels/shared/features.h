@@ -56,6 +56,7 @@
 #define BIT_NEAR_PLANE 47                  // near plane
 #define BIT_FAR_PLANE 48                   // far plane
 #define BIT_AMBIENT 49                     // ambient light
+#define BIT_DEEP_TEXTURES 50               // textures of 16 bits
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

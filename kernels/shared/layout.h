@@ -69,14 +69,17 @@ enum {
 #define WRAP_CLAMP 1u
 #define WRAP_MIRROR 2u
 
+#define TEXTURE_NEAREST 1u  // no filtering
+#define TEXTURE_DEEP 2u     // 16 bits for each channel, with DEEP_TEXTURES
+
 WHITTLE_STRUCT(DeviceTexture) {
   float transform[6];  // u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5
-  uint firstTexel;     // RGBA8 words
+  uint firstTexel;     // words: one of RGBA8 for each texel, or two of RG16, BA16
   int width;
   int height;
   uint wrapS;
   uint wrapT;
-  uint nearest;  // 1: no filtering
+  uint flags;  // TEXTURE_…
   uint uvSet;
 };
 

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
-#include <stdexcept>
+
+#include "glb_file.h"
 
 namespace generator {
 namespace {
@@ -283,12 +283,7 @@ void GltfBuilder::useExtension(const std::string& name) {
 
 void GltfBuilder::write(const std::filesystem::path& path) {
   if (!lights_.empty()) model_.extensions["KHR_lights_punctual"] = Value(Object{{"lights", Value(lights_)}});
-  std::ofstream file(path, std::ios::binary);
-  tinygltf::TinyGLTF writer;
-  const bool written =
-      writer.WriteGltfSceneToStream(&model_, file, /*prettyPrint=*/false, /*writeBinary=*/true);
-  file.close();
-  if (!written || !file) throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
+  writeGlb(model_, path);
 }
 
 }  // namespace generator

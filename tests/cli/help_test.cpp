@@ -105,5 +105,17 @@ TEST(Text, NumbersAndWords) {
   EXPECT_EQ(closestWord("frobnicate", {"render", "info"}), "");
 }
 
+TEST(Text, CoordinatesTellApartAThousandthOfTheScene) {
+  EXPECT_EQ(formatCoordinate(1.23456, 20), "1.235") << "a scene about the origin: four digits";
+  EXPECT_EQ(formatCoordinate(-0.0, 20), "0");
+  EXPECT_EQ(formatCoordinate(1e-7, 20), "0") << "rounding";
+  // Ten metres across, 5000 km away: to the centimetre, the thousandth part.
+  EXPECT_EQ(formatCoordinate(5000000.123, 10), "5000000.12");
+  EXPECT_EQ(formatCoordinate(-4649777.02, 100), "-4649777");
+  EXPECT_EQ(formatCoordinate(500123.37, 100), "500123.4");
+  EXPECT_EQ(formatCoordinate(1.5, 0), "1.5") << "a point";
+  EXPECT_EQ(formatCoordinate(1e30, 1), "1e+30") << "beyond what a double holds";
+}
+
 }  // namespace
 }  // namespace whittle::test

@@ -13,11 +13,10 @@ namespace whittle {
 namespace {
 
 /// `textures` holds the same one twice: every second work item looks it up under one number, the others under
-/// both, which lanes read in another way.
+/// both, which lanes read in another way. `turns`: entries look up two textures in turns.
 constexpr const char* kKernels = R"(
-__kernel void lookups(uint n, int srgb, __global const DeviceTexture* textures, __global const uint* texels,
-                      __global const float* linearFromSrgb, __global const float* coordinates, __global float* out) {
-  FOR_ENTRIES(i, n)
+Rgba lookup(__global const DeviceTexture* textures, __global const uint* texels, __global const float* linearFromSrgb,
+            __global const float* coordinates, Natural entry, Natural chosen, int srgb) {
   SceneView scene;
   scene.textures = textures;
   scene.texels = texels;
@@ -27,7 +26,21 @@ __kernel void lookups(uint n, int srgb, __global const DeviceTexture* textures, 
   uv.u[0] = uv.v[0] = (Real)(0.3f);
   uv.u[1] = gather(coordinates, 2u * entry);
   uv.v[1] = gather(coordinates + 1, 2u * entry);
-  const Rgba found = sampleTexture(&scene, i % 2 ? (Natural)(0) : entry & 1u, &uv, srgb);
+  return sampleTexture(&scene, chosen, &uv, srgb);
+}
+
+__kernel void lookups(uint n, int srgb, __global const DeviceTexture* textures, __global const uint* texels,
+                      __global const float* linearFromSrgb, __global const float* coordinates, __global float* out) {
+  FOR_ENTRIES(i, n)
+  const Natural chosen = i % 2 ? (Natural)(0) : entry & 1u;
+  const Rgba found = lookup(textures, texels, linearFromSrgb, coordinates, entry, chosen, srgb);
+  for (uint c = 0; c < 4; ++c) put(out, 4u * entry + c, found.c[c]);
+}
+
+__kernel void turns(uint n, int srgb, __global const DeviceTexture* textures, __global const uint* texels,
+                    __global const float* linearFromSrgb, __global const float* coordinates, __global float* out) {
+  FOR_ENTRIES(i, n)
+  const Rgba found = lookup(textures, texels, linearFromSrgb, coordinates, entry, entry & 1u, srgb);
   for (uint c = 0; c < 4; ++c) put(out, 4u * entry + c, found.c[c]);
 }
 )";
@@ -61,7 +74,8 @@ glm::dvec4 texel(const Picture& p, long long x, long long y, const device::Devic
 
 glm::dvec4 twin(const Picture& p, double u, double v, const device::DeviceTexture& t, bool srgb) {
   const double x = u * p.width, y = v * p.height;
-  if (t.nearest) return texel(p, std::llround(std::floor(x)), std::llround(std::floor(y)), t, srgb);
+  if (t.flags & TEXTURE_NEAREST)
+    return texel(p, std::llround(std::floor(x)), std::llround(std::floor(y)), t, srgb);
   const double fx = std::floor(x - 0.5), fy = std::floor(y - 0.5), wx = x - 0.5 - fx, wy = y - 0.5 - fy;
   const auto ix = static_cast<long long>(fx), iy = static_cast<long long>(fy);
   return (texel(p, ix, iy, t, srgb) * (1 - wx) + texel(p, ix + 1, iy, t, srgb) * wx) * (1 - wy) +
@@ -82,6 +96,12 @@ class TextureBench {
     const int asSrgb = srgb;
     return bench.map<float>("lookups", static_cast<std::uint32_t>(uv.size() / 2), 4, asSrgb,
                             std::vector{t, t}, all, table_, uv);
+  }
+  std::vector<float> turns(const std::vector<device::DeviceTexture>& textures,
+                           const std::vector<std::uint32_t>& texels, const std::vector<float>& uv) {
+    const int asLinear = 0;
+    return bench.map<float>("turns", static_cast<std::uint32_t>(uv.size() / 2), 4, asLinear, textures, texels,
+                            table_, uv);
   }
   test::LaneBench bench;
 
@@ -107,7 +127,7 @@ TEST(Texture, WrapModesAndFiltersAgreeWithTheTwin) {
     for (std::uint32_t mode = 0; mode < 18; ++mode) {
       device::DeviceTexture t{{1, 0, 0, 0, 1, 0}, 7, width, height, mode % 3, mode / 3 % 3, mode / 9, 1};
       const bool srgb = mode % 2;
-      SCOPED_TRACE(fmt::format("{}×{} wrap {} {} nearest {}", width, height, t.wrapS, t.wrapT, t.nearest));
+      SCOPED_TRACE(fmt::format("{}×{} wrap {} {} nearest {}", width, height, t.wrapS, t.wrapT, t.flags));
       std::vector<float> uv;
       for (int i = 0; i < 400; ++i) {
         // Dyadic coordinates: products with the size are exact unless it is no power of two; borders and
@@ -119,7 +139,7 @@ TEST(Texture, WrapModesAndFiltersAgreeWithTheTwin) {
       const auto out = lookup(t, p, srgb, uv);
       for (std::size_t i = 0; i < uv.size() / 2; ++i) {
         const double u = uv[2 * i], v = uv[2 * i + 1];
-        if (t.nearest && (t.wrapS == WRAP_MIRROR || t.wrapT == WRAP_MIRROR)) {
+        if (t.flags && (t.wrapS == WRAP_MIRROR || t.wrapT == WRAP_MIRROR)) {
           // On the border between two texels a mirrored coordinate may take either: it is reduced before it
           // is floored.
           const double x = u * width, y = v * height;
@@ -175,6 +195,33 @@ TEST(Texture, TransformAndUvSet) {
   const auto first = lookup(plain, p, false, {0.9F, 0.9F});
   plain.uvSet = 1;
   EXPECT_EQ(first, lookup(plain, p, false, {0.3F, 0.3F}));
+}
+
+/// Entries look up an image of 8 bits and one of 16 in turns, so that lanes of one vector differ.
+TEST(Texture, SixteenBitsBesideEight) {
+  TextureBench lookup;
+  const std::vector<std::uint32_t> texels{0xff804020U, 0x01020304U,  // RGBA8, red lowest
+                                          0x80018000U, 0xffff0001U,
+                                          0x80038004U, 0x0000fffeU};  // two texels of 16 bits: RG, BA
+  const device::DeviceTexture shallow{{1, 0, 0, 0, 1, 0}, 0, 2, 1, WRAP_CLAMP, WRAP_CLAMP, 0, 1};
+  device::DeviceTexture deep = shallow;
+  deep.firstTexel = 2;
+  deep.flags = TEXTURE_DEEP;
+  // Both centres, and half way between them.
+  const std::vector<float> uv{0.25F, 0.5F, 0.25F, 0.5F, 0.75F, 0.5F, 0.75F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F};
+  const double first[2][4] = {{0x20, 0x40, 0x80, 0xff}, {0x8000, 0x8001, 0x0001, 0xffff}};
+  const double second[2][4] = {{0x04, 0x03, 0x02, 0x01}, {0x8004, 0x8003, 0xfffe, 0}};
+  const auto out = lookup.turns({shallow, deep}, texels, uv);
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::size_t which = i % 2;
+      const double share = i / 2 == 0 ? 0 : i / 2 == 1 ? 1 : 0.5;
+      const double expected =
+          (first[which][c] * (1 - share) + second[which][c] * share) / (which ? 65535 : 255);
+      EXPECT_NEAR(static_cast<double>(out[4 * i + c]), expected, 4 * 0x1p-24)
+          << "entry " << i << " channel " << c;
+    }
+  EXPECT_EQ(out[4 + 3], 1.0F) << "opaque is opaque";
 }
 
 }  // namespace

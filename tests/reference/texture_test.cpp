@@ -42,6 +42,19 @@ TextureSlot wrapped(Wrap wrap, Filter filter = Filter::Linear) {
 
 constexpr double kRounding = 1e-12;
 
+TEST(Texture, LinearSlotsReadSixteenBitsWhereTheyAreThere) {
+  Scene scene;
+  scene.images = {{"", 2, 1, {128, 0, 0, 255, 128, 0, 0, 255}, {32800, 0, 0, 65535, 32900, 0, 0, 65535}}};
+  const TextureSlot slot = wrapped(Wrap::Repeat);
+  const auto at = [&](double u, Encoding encoding) {
+    return reference::sampleTexture(scene, slot, {u, 0.5}, encoding);
+  };
+  EXPECT_NEAR(at(0.25, Encoding::Linear).r, 32800 / 65535.0, kRounding);
+  EXPECT_NEAR(at(0.5, Encoding::Linear).r, 32850 / 65535.0, kRounding) << "half way";
+  EXPECT_EQ(at(0.25, Encoding::Linear).a, 1);
+  EXPECT_NEAR(at(0.25, Encoding::Srgb).r, reference::srgbToLinear(128 / 255.0), kRounding);
+}
+
 TEST(Texture, BilinearBetweenTexelCentres) {
   const Scene scene = ramp();
   const TextureSlot slot = wrapped(Wrap::Repeat);

@@ -6,7 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "image/codec/float_reader.h"
 #include "image/codec/oiio_input.h"
@@ -34,19 +38,33 @@ std::vector<T> readPixels(OIIO::ImageInput& input, OIIO::TypeDesc type, int chan
 }
 
 /// Grey, grey + alpha, RGB and RGBA to RGBA.
-std::vector<std::uint8_t> toRgba(std::vector<std::uint8_t> in, int channels) {
+template <class T>
+std::vector<T> toRgba(std::vector<T> in, int channels) {
   if (channels == 4) return in;
   const std::size_t count = in.size() / static_cast<std::size_t>(channels);
   const int green = channels >= 3 ? 1 : 0, blue = channels >= 3 ? 2 : 0;
-  std::vector<std::uint8_t> out(count * 4);
+  std::vector<T> out(count * 4);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint8_t* texel = &in[i * channels];
+    const T* texel = &in[i * channels];
     out[i * 4 + 0] = texel[0];
     out[i * 4 + 1] = texel[green];
     out[i * 4 + 2] = texel[blue];
-    out[i * 4 + 3] = channels == 2 ? texel[1] : std::uint8_t{255};
+    out[i * 4 + 3] = channels == 2 ? texel[1] : std::numeric_limits<T>::max();
   }
   return out;
+}
+
+/// Whether 16-bit values say more than 8 bits could: those are the multiples of 257.
+bool areDeep(const std::vector<std::uint16_t>& values) {
+  return std::any_of(values.begin(), values.end(), [](std::uint16_t v) { return v % 257 != 0; });
+}
+
+/// As the library converts what it reads.
+std::vector<std::uint8_t> inEightBits(const std::vector<std::uint16_t>& values) {
+  std::vector<std::uint8_t> bytes(values.size());
+  OIIO::convert_pixel_values(OIIO::TypeDesc::UINT16, values.data(), OIIO::TypeDesc::UINT8, bytes.data(),
+                             static_cast<int>(values.size()));
+  return bytes;
 }
 
 Image toImage(OIIO::ImageInput& input, const std::string& name) {
@@ -54,7 +72,13 @@ Image toImage(OIIO::ImageInput& input, const std::string& name) {
   checkSize(spec, kMaxTextureSide, name);
   const int channels = std::min(spec.nchannels, 4);
   Image image{name, spec.width, spec.height, {}};
-  image.texels = toRgba(readPixels<std::uint8_t>(input, OIIO::TypeDesc::UINT8, channels, name), channels);
+  if (spec.format != OIIO::TypeDesc::UINT16) {
+    image.texels = toRgba(readPixels<std::uint8_t>(input, OIIO::TypeDesc::UINT8, channels, name), channels);
+    return image;
+  }
+  auto deep = toRgba(readPixels<std::uint16_t>(input, OIIO::TypeDesc::UINT16, channels, name), channels);
+  image.texels = inEightBits(deep);
+  if (areDeep(deep)) image.deepTexels = std::move(deep);
   return image;
 }
 

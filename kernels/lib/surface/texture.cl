@@ -1,5 +1,5 @@
-// Texture lookups: level 0, bilinear or nearest, wrap modes, sRGB decoded for each texel before filtering. The loads of
-// all lanes are under way at once.
+// Texture lookups: level 0, bilinear or nearest, wrap modes, sRGB decoded for each texel before filtering. Slots of
+// linear values may have 16 bits for each channel. The loads of all lanes are under way at once.
 #include "lib/lanes.cl"
 #include "lib/scene.cl"
 
@@ -41,11 +41,28 @@ typedef struct {
   Real c[4];
 } Rgba;
 
+#if HAS(DEEP_TEXTURES)
+/// `t` with the channels of a texel of two words, first RG, then BA, where the texture is deep.
+INLINE Rgba chooseDeep(Mask deep, Natural rg, Natural ba, Rgba t) {
+  for (uint n = 0; n < 4; ++n) {
+    const Natural value = ((n < 2 ? rg : ba) >> (16 * (n & 1))) & 65535u;
+    const Real channel = value == 65535u ? (Real)(1.0f) : TO_REAL(value) / 65535.0f;
+    t.c[n] = deep ? channel : t.c[n];
+  }
+  return t;
+}
+#endif
+
 INLINE Rgba fetchTexel(const SceneView* scene, const Records* texture, Mask x, Mask y, int srgb) {
   const Natural first = FIELD_BITS(texture, DeviceTexture, firstTexel),
                 width = FIELD_BITS(texture, DeviceTexture, width);
+#if HAS(DEEP_TEXTURES)
+  const Mask deep = (FIELD_BITS(texture, DeviceTexture, flags) & TEXTURE_DEEP) != 0;
+  const Natural texel = AS_NATURAL(y) * width + AS_NATURAL(x), at = first + (deep ? texel * 2u : texel);
+#else
   const Natural at = first + AS_NATURAL(y) * width + AS_NATURAL(x);
-  const Natural word = AS_NATURAL(gather((__global const float*)scene->texels, at));
+#endif
+  const Natural word = gatherWords(scene->texels, at);
   Rgba t;
   for (uint n = 0; n < 4; ++n) {
     const Natural byte = (word >> (8 * n)) & 255u;
@@ -53,6 +70,9 @@ INLINE Rgba fetchTexel(const SceneView* scene, const Records* texture, Mask x, M
     // A division may be off by an ulp: opaque is opaque.
     if (n == 3) t.c[n] = byte == 255u ? (Real)(1.0f) : t.c[n];
   }
+#if HAS(DEEP_TEXTURES)
+  if (!srgb && some(deep)) t = chooseDeep(deep, word, gatherWords(scene->texels, deep ? at + 1u : at), t);
+#endif
   return t;
 }
 
@@ -105,7 +125,7 @@ TEXTURE_LOOKUP Rgba sampleTexture(const SceneView* scene, Natural slots, const U
   v = lost ? (Real)(0.0f) : wrapCoordinate(v, vLow, wrapT) * TO_REAL(height);
   Rgba result = {{(Real)(0.0f), (Real)(0.0f), (Real)(0.0f), (Real)(0.0f)}};
 #if HAS(NEAREST_FILTER)
-  const Mask nearest = FIELD_BITS(&texture, DeviceTexture, nearest) != 0;
+  const Mask nearest = (FIELD_BITS(&texture, DeviceTexture, flags) & TEXTURE_NEAREST) != 0;
   if (some(!nearest)) result = blendTexels(scene, &texture, u, v, width, height, wrapS, wrapT, srgb);
   if (some(nearest)) {
     const Mask nx = wrapTexel(TO_WHOLE(floor(u)), width, wrapS), ny = wrapTexel(TO_WHOLE(floor(v)), height, wrapT);

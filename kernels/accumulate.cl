@@ -1,6 +1,6 @@
-// accumulate: throughput · radiance of a segment's entries into the radiance of their samples. The entries of one
-// sample are neighbours; the work item at the first of them adds them all in queue order, so no order is left to
-// chance.
+// accumulate: throughput · radiance of a segment's entries into the radiance of their samples. The entries of
+// one sample are neighbours; the work item at the first of them adds them all in queue order, so no order is
+// left to chance.
 #include "lib/math.cl"
 
 /// Planes p, p + 1, p + 2 of entry i of a struct-of-arrays queue.

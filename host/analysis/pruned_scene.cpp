@@ -46,8 +46,8 @@ Flags usedMaterials(const Scene& scene) {
       });
 }
 
-/// Bounds of the alpha of the vertices of each material's triangles; a least of -infinity where one is not
-/// finite.
+/// Bounds of the alpha of the vertices of each material's triangles; a least of -infinity where one
+/// is not finite.
 std::vector<AlphaBounds> vertexAlphas(const Scene& scene) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   using Bounds = std::vector<AlphaBounds>;

@@ -100,8 +100,8 @@ Surface surfaceOf(const Material& m, const Settings& settings, const glm::dvec3&
   return s;
 }
 
-/// What channel c of a dielectric (metallic 0) or a metal (1) of transmission `tau` sends back when L
-/// arrives.
+/// What channel c of a dielectric (metallic 0) or a metal (1) of transmission `tau` sends back
+/// when L arrives.
 double returnedBySmooth(const Surface& s, int c, double metallic, double tau, double L) {
   const double dielectric = std::max(L, times(1 - tau, s.matte[c]) + times(tau * s.color[c], L));
   return times(1 - metallic, dielectric) + times(metallic * std::max(1.0, s.color[c]), L);
@@ -184,8 +184,8 @@ glm::dvec3 boundOf(const std::vector<Surface>& surfaces, const glm::dvec3& backg
   return bound;
 }
 
-/// The most that a surface which reflects or refracts sends back of `arriving`, without what it gives off
-/// itself.
+/// The most that a surface which reflects or refracts sends back of `arriving`, without what it
+/// gives off itself.
 glm::dvec3 largestImpulses(std::vector<Surface> surfaces, const glm::dvec3& arriving) {
   glm::dvec3 most(0);
   for (Surface& s : surfaces) {

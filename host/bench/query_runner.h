@@ -20,8 +20,8 @@ struct QueryKernel {
 /// Every kernel there is; first the one that the renderer uses on a CPU, for rays of any kind.
 const std::vector<QueryKernel>& queryKernels();
 
-/// One kernel, compiled, with its scene on the device. Opaque triangles only: neither textures nor masks take
-/// part.
+/// One kernel, compiled, with its scene on the device. Opaque triangles only: neither textures nor
+/// masks take part.
 class QueryRunner {
  public:
   /// Throws ClError.

@@ -1,5 +1,5 @@
-// addDefaults of loader.h: a camera and lights for files that have none. Reads and writes the scene
-// only.
+// addDefaults of loader.h: a camera and lights for files that have none. Reads and writes
+// the scene only.
 #include <fmt/format.h>
 
 #include <algorithm>

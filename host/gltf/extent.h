@@ -25,14 +25,14 @@ struct Extent {
   double farthest() const;
 };
 
-/// Boxes by accessor. What an accessor says of its bounds itself may be missing or wrong, so its points are
-/// read.
+/// Boxes by accessor. What an accessor says of its bounds itself may be missing or wrong, so its
+/// points are read.
 class Extents {
  public:
   explicit Extents(Document& document) : document_(document) {}
 
-  /// In the accessor's own space; empty where it does not hold points. Throws InputError if it cannot be
-  /// read.
+  /// In the accessor's own space; empty where it does not hold points. Throws InputError if it
+  /// cannot be read.
   const Extent& of(int accessor);
 
  private:

@@ -13,8 +13,8 @@ namespace whittle {
 
 struct LoadOptions {
   std::optional<std::string> sceneName;  ///< name or index; default: the file's default scene, else the first
-  /// The studio's lights (studio.h) for a file without lights or background; unset: where a surface would be
-  /// dark.
+  /// The studio's lights (studio.h) for a file without lights or background; unset: where a surface
+  /// would be dark.
   std::optional<bool> defaultLights = {};
   bool defaultBackground = true;            ///< with them, its surroundings
   std::string camera = "0";                 ///< which one lights are added for; see findCamera

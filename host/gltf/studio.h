@@ -1,5 +1,5 @@
-// What a file gets that has neither lights nor surroundings: a small photographer's studio, set up around the
-// camera.
+// What a file gets that has neither lights nor surroundings: a small photographer's studio, set up
+// around the camera.
 #pragma once
 
 #include <vector>

@@ -36,8 +36,8 @@ std::array<float, 6> transformOf(const Json& t) {
           static_cast<float>(-s * scale.x), static_cast<float>(c * scale.y), static_cast<float>(offset.y)};
 }
 
-/// A picture on disk. OpenImageIO takes what stands behind '?' in a name for arguments: such a file is read
-/// here.
+/// A picture on disk. OpenImageIO takes what stands behind '?' in a name for arguments: such a file
+/// is read here.
 Image readPicture(const std::filesystem::path& path) {
   if (path.native().find('?') == std::string::npos) return readImage(path);
   Bytes bytes;

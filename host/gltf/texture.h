@@ -16,8 +16,8 @@ class TextureReader {
 
   /// The slot that the textureInfo under `key` of `owner` describes; an empty slot where there is none.
   TextureSlot slot(const Json& owner, const char* key);
-  /// To be called once all materials are there: frees the 16-bit texels that only slots of colours would
-  /// read.
+  /// To be called once all materials are there: frees the 16-bit texels that only slots of
+  /// colours would read.
   void dropUnreadTexels();
 
  private:

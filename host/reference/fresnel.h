@@ -6,9 +6,9 @@
 
 namespace whittle::reference {
 
-/// Unpolarised reflectance of a dielectric. cosI in [0,1] is measured in the medium the light comes from, eta
-/// is the index beyond over the index here. 1 at total reflection; 0 where eta is exactly 1; 1 where eta is
-/// 0.
+/// Unpolarised reflectance of a dielectric. cosI in [0,1] is measured in the medium the light comes from,
+/// eta is the index beyond over the index here. 1 at total reflection; 0 where eta is exactly 1; 1 where
+/// eta is 0.
 double dielectricReflectance(double cosI, double eta);
 
 /// Whether no refracted direction exists.

@@ -114,8 +114,8 @@ bool showsSide(const World& world, const Ray& ray, const Hit& hit) {
   return glm::dot(glm::cross(p1 - p0, p2 - p0), ray.direction) < 0;
 }
 
-/// What a lit surface sends back of radiance 1 from all sides: Lambert's part, and where it is rough its
-/// metal.
+/// What a lit surface sends back of radiance 1 from all sides: Lambert's part, and where it is
+/// rough its metal.
 Vec3 ambientReflectance(const Surfel& s, const Vec3& w_o) {
   const Vec3 matte = (1 - s.metallic) * (1 - s.transmission) * s.baseColor;
   if (!s.smooth) return matte + s.metallic * s.baseColor;

@@ -65,8 +65,8 @@ class TriangleIndex {
  private:
   struct Node {
     Box box;
-    std::uint32_t first =
-        0;  ///< leaf: first entry of order_; inner: index of the left child, the right one follows
+    /// Leaf: first entry of order_; inner: index of the left child, the right one follows.
+    std::uint32_t first = 0;
     std::uint32_t count = 0;  ///< triangles of a leaf; 0: inner node
   };
   struct Entry {

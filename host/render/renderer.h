@@ -37,8 +37,8 @@ struct RenderHooks {
   std::function<void(const std::string&)> phase;        ///< "compiling kernels", … may be empty
   std::function<void(const std::string&)> note;         ///< what the user should know meanwhile; may be empty
   std::optional<std::filesystem::path> kernelFolder;    ///< kernels from here instead of the binary
-  const FloatImage* reference =
-      nullptr;  ///< of the picture's size: each look at the film says how far it is from this
+  /// Of the picture's size: each look at the film says how far it is from this.
+  const FloatImage* reference = nullptr;
   /// The `whittle` binary, to compile kernels with a second process (compilerProcessMain); empty: this one
   /// does it all.
   std::filesystem::path compiler;

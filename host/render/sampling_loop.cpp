@@ -127,8 +127,8 @@ bool SamplingLoop::traceWith(const SamplePass& pass, const TracePass& launches) 
   const std::uint32_t pixels = wavefront_.trace(launches, ask);
   const std::size_t blocks = (pixels + FILM_BLOCK - 1) / FILM_BLOCK;
   for (std::size_t b = 0; b < blocks; ++b) counts_.add(pass.blocks[b], pass.samples);
-  // A pixel's mean holds a sample with the weight 1 / (samples in the end), which is at most 1 / (samples so
-  // far).
+  // A pixel's mean holds a sample with the weight 1 / (samples in the end), which is at most 1 /
+  // (samples so far).
   const double weight = 1.0 / (static_cast<double>(counts_.pixels()) * (pass.firstSample + pass.samples));
   endedShare_ += weight * (endedInAll(wavefront_.tally()) - endedBefore);
   return pixels == launches.pixels;

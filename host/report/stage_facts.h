@@ -1,5 +1,5 @@
-// What a stage of the wavefront is, for everything that prints one. The stages themselves:
-// wavefront/stages.h.
+// What a stage of the wavefront is, for everything that prints one. The
+// stages themselves: wavefront/stages.h.
 #pragma once
 
 namespace whittle {

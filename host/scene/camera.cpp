@@ -22,8 +22,8 @@ glm::dvec3 towardsEye(double azimuth, double elevation) {
           std::cos(azimuth) * std::cos(elevation)};
 }
 
-/// How steeply to look down on a box whose visible side is `width` by `height` and which is `depth` deep, in
-/// radians.
+/// How steeply to look down on a box whose visible side is `width` by `height` and which is `depth`
+/// deep, in radians.
 double elevationFor(double width, double height, double depth) {
   constexpr double kFlat = 1e-3;
   if (depth <= kFlat * std::max(width, height)) return 0.0;  // a picture: front on

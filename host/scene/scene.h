@@ -61,13 +61,13 @@ struct Material {
   TextureSlot metallicRoughnessTexture;
   float normalScale = 1.0F;
   TextureSlot normalTexture;
-  float occlusionStrength =
-      1.0F;  ///< read and kept, not used: not even by --ambient
+  /// Read and kept, not used: not even by --ambient.
+  float occlusionStrength = 1.0F;
   TextureSlot occlusionTexture;
   glm::vec3 emission{0.0F};  ///< W/(m² sr): emissiveFactor · emissiveStrength; texture is sRGB, multiplied
   TextureSlot emissionTexture;
-  float ior =
-      1.5F;  ///< ratio of the indices inside over outside, across this interface; 0 means "Fresnel = 1"
+  /// Ratio of the indices inside over outside, across this interface; 0 means "Fresnel = 1".
+  float ior = 1.5F;
   float specular = 1.0F;  ///< KHR_materials_specular; texture: alpha channel
   TextureSlot specularTexture;
   glm::vec3 specularColor{1.0F};  ///< texture is sRGB
@@ -169,8 +169,8 @@ struct Background {
   /// Direction to (u, v): u = 0.5 + atan2(d.x, -d.z)/(2π) + rotation/360, v = acos(d.y)/π. Bilinear, u wraps,
   /// v clamps.
   std::vector<float> map;
-  /// Degrees about +Y, counter-clockwise seen from above: at 90 what the map has at +X is seen along -Z.
-  /// Finite.
+  /// Degrees about +Y, counter-clockwise seen from above: at 90 what the map has at +X is seen
+  /// along -Z. Finite.
   double rotation = 0.0;
 };
 

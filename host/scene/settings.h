@@ -57,8 +57,8 @@ struct Settings {
   Search search = Search::Auto;
   Sampler sampler = Sampler::Random;
   std::uint32_t seed = 0;
-  Lanes lanes =
-      Lanes::Auto;  ///< rays for each work item of the searches; auto: sixteen where packets suit the device
+  /// Rays for each work item of the searches; auto: sixteen where packets suit the device.
+  Lanes lanes = Lanes::Auto;
   ImpulseMode impulses = ImpulseMode::All;
   std::string device;              ///< selector; empty: the first usable device, CPU first
   int threads = 0;                 ///< CPU devices; 0: all

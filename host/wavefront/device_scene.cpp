@@ -24,8 +24,8 @@ static_assert(sizeof(device::DeviceLight) == 64);
 static_assert(sizeof(device::DeviceTexture) == 52);
 static_assert(sizeof(device::DeviceCamera) == 128);
 
-/// Texture slots and texels of the images they use, shared where two slots are the same or read the same
-/// image.
+/// Texture slots and texels of the images they use, shared where two slots are the same or read
+/// the same image.
 class TextureAtlas {
  public:
   TextureAtlas(const Scene& scene, const PrunedScene& pruned) : scene_(scene), pruned_(pruned) {}

@@ -1,5 +1,5 @@
-// The scene on the device: only the buffers its features need. A buffer that is left out is a null pointer
-// there.
+// The scene on the device: only the buffers its features need. A buffer that is left out is a
+// null pointer there.
 #pragma once
 
 #include <vector>

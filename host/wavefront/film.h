@@ -15,8 +15,8 @@ namespace whittle {
 /// Planes of the film of a picture with this many samples for each pixel.
 std::size_t filmPlanes(int samples);
 
-/// filmPlanes planes of width·height floats (kernels/shared/layout.h), pixels in the order of
-/// makePixelOrder.
+/// filmPlanes planes of width·height floats (kernels/shared/layout.h), pixels in the
+/// order of makePixelOrder.
 struct FilmSums {
   int width = 0, height = 0;
   std::span<const std::uint32_t> pixelOrder;  ///< y << 16 | x

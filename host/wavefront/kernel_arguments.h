@@ -14,8 +14,8 @@ class KernelArguments {
   /// `name`: for messages.
   KernelArguments(cl::Kernel& kernel, const char* name) : kernel_(kernel), name_(name) {}
 
-  /// The next argument; throws ClError that says which. Empty buffers become null pointers, a scene all its
-  /// parameters.
+  /// The next argument; throws ClError that says which. Empty buffers become null pointers, a scene
+  /// all its parameters.
   void add(const Buffer& buffer);
   void add(const SceneArgument& argument);
   template <typename T>

@@ -25,8 +25,8 @@ std::vector<std::uint32_t> makePixelOrder(std::uint32_t width, std::uint32_t hei
   std::vector<std::uint32_t> order;
   order.reserve(static_cast<std::size_t>(width) * height);
   const std::uint32_t columns = (width + 3) / 4, rows = (height + 1) / 2;
-  // Squares of 64×64 tiles row by row, a Morton curve inside each: no long walk over tiles outside a wide
-  // picture.
+  // Squares of 64×64 tiles row by row, a Morton curve inside each: no long walk over tiles outside
+  // a wide picture.
   constexpr std::uint32_t kSide = 64;
   for (std::uint32_t by = 0; by < rows; by += kSide)
     for (std::uint32_t bx = 0; bx < columns; bx += kSide)

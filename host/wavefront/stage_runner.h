@@ -24,8 +24,8 @@ std::uint32_t defaultCompactChunk(const DeviceInfo& device);
 
 class StageRunner {
  public:
-  /// `workGroup` work items at a time; every launch of a kernel uses the same, because PoCL compiles each
-  /// anew.
+  /// `workGroup` work items at a time; every launch of a kernel uses the same, because PoCL
+  /// compiles each anew.
   StageRunner(Compute& compute, const std::vector<cl::Program>& programs, int workGroup,
               const LaunchWidths& widths, const EntryBytes& entryBytes = {});
 

@@ -68,8 +68,8 @@ bool Wavefront::traceQueue(Buffer queue, std::uint32_t count, std::uint32_t boun
     Buffer next;
     const std::uint32_t nextCount = whole ? traceSegment(queue, segment, bounce, next) : 0;
     const double to = share.from + (share.to - share.from) * segment.end / count;
-    // The queue of the last segment is free before the next bounce: two queues serve a path that is never
-    // cut.
+    // The queue of the last segment is free before the next bounce: two queues serve a path that
+    // is never cut.
     if (segment.end == count) queues_.release(std::exchange(queue, {}));
     if (nextCount > 0)
       whole = traceQueue(std::move(next), nextCount, bounce + 1, {from, to});

@@ -1,5 +1,5 @@
-// The wavefront loop: batches of samples through the stages, bounce by bounce. The only file that launches
-// kernels.
+// The wavefront loop: batches of samples through the stages, bounce by bounce. The only file
+// that launches kernels.
 #pragma once
 
 #include <cstdint>

@@ -137,8 +137,8 @@ INLINE Real wordOf(const Records* r, uint word) {
 }
 
 #define WORDS_OF(Struct) ((uint)(sizeof(Struct) / 4))
-/// A null pointer need not be address 0 (in Mesa a private one is not): what counts is the distance from the struct's
-/// begin.
+/// A null pointer need not be address 0 (in Mesa a private one is not): what counts is the distance from
+/// the struct's begin.
 #define WORD_OF(Struct, field) \
   ((uint)(((__global const char*)&((__global Struct*)0)->field - (__global const char*)(__global Struct*)0) / 4))
 #define FIELD(records, Struct, field) wordOf(records, WORD_OF(Struct, field))

@@ -1,8 +1,8 @@
 // Every feature a scene or a setting may or may not need, once, for host and kernels: its name, its bit and
-// what a person calls it. The host hands the kernels ONE number (-D SCENE_FEATURES=0x…); kernels ask by name:
-// `#if HAS(EMISSION)`. Left out, everything is on, so that any kernel file compiles by itself. For the host
-// cmake/feature_list.cmake turns these lines into WHITTLE_FEATURES(X), with X(NAME, bit, "what a person calls
-// it").
+// what a person calls it. The host hands the kernels ONE number (-D SCENE_FEATURES=0x…); kernels ask by
+// name: `#if HAS(EMISSION)`. Left out, everything is on, so that any kernel file compiles by itself. For
+// the host cmake/feature_list.cmake turns these lines into WHITTLE_FEATURES(X), with X(NAME, bit, "what a
+// person calls it").
 #ifndef WHITTLE_FEATURES_H
 #define WHITTLE_FEATURES_H
 

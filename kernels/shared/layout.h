@@ -1,6 +1,6 @@
-// Every struct and queue layout that host and device both read. Only 4-byte scalars and plain arrays of them,
-// so that alignment and padding cannot differ; sizes are asserted on the host and asked of the device by a
-// test.
+// Every struct and queue layout that host and device both read. Only 4-byte scalars and plain arrays of
+// them, so that alignment and padding cannot differ; sizes are asserted on the host and asked of the device
+// by a test.
 #ifndef WHITTLE_LAYOUT_H
 #define WHITTLE_LAYOUT_H
 
@@ -102,9 +102,9 @@ WHITTLE_STRUCT(DeviceLight) {
   uint pad[2];
 };
 
-// Vectors are four floats apart: a compiler loads the fourth along, and the bits of a small integer there are
-// a subnormal float, whose product stalls a CPU for a hundred cycles (measured: raygen took seven times as
-// long).
+// Vectors are four floats apart: a compiler loads the fourth along, and the bits of a small integer there
+// are a subnormal float, whose product stalls a CPU for a hundred cycles (measured: raygen took seven
+// times as long).
 WHITTLE_STRUCT(DeviceCamera) {
   float position[4];
   float forward[4];
@@ -188,9 +188,9 @@ WHITTLE_STRUCT(Batch) {
 #define HIT_T 3
 #define HIT_PLANES 4
 #define HIT_PLANES_WITHOUT_T 3
-// With STRAIGHT also what decides which hit comes first: the distance, but of a blended surface a little less
-// (COAT_ORDER). So a decal shows that lies exactly in the plane of a wall, whatever rounding makes of the two
-// distances.
+// With STRAIGHT also what decides which hit comes first: the distance, but of a blended surface a little
+// less (COAT_ORDER). So a decal shows that lies exactly in the plane of a wall, whatever rounding makes of
+// the two distances.
 #define HIT_ORDER 4
 #define HIT_PLANES_STRAIGHT 5
 #define COAT_ORDER 0.99999905f  // 1 - 2^-20: above the rounding of two distances, 5 um at 5 m

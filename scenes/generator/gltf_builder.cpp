@@ -1,6 +1,6 @@
-// Turns the builder's calls into tinygltf's model: one buffer, one view for each array, lights and materials
-// with the KHR extensions (KHR_lights_punctual, _materials_ior, _transmission, _volume, _specular,
-// _emissive_strength).
+// Turns the builder's calls into tinygltf's model: one buffer, one view for each array, lights
+// and materials with the KHR extensions (KHR_lights_punctual, _materials_ior, _transmission,
+// _volume, _specular, _emissive_strength).
 #include "gltf_builder.h"
 
 #include <fmt/format.h>

@@ -20,8 +20,8 @@ void buildTextured(GltfBuilder& scene);
 void buildHeightField(GltfBuilder& scene, int n);
 /// The whole-frame benchmark: 560 × 560 squares (627 200 triangles), one point light, mirror spheres above.
 void buildFrame(GltfBuilder& scene);
-/// Triangles of a millimetre beside triangles of 120 km and slivers a millimetre wide: what is hard on a
-/// tree.
+/// Triangles of a millimetre beside triangles of 120 km and slivers a millimetre wide: what is hard
+/// on a tree.
 void buildMixed(GltfBuilder& scene);
 
 }  // namespace generator

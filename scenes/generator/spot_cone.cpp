@@ -19,9 +19,9 @@ void buildSpotCone(GltfBuilder& scene) {
   scene.add("pedestal", std::move(pedestal), scene.addMaterial(matte("stone", {0.45, 0.4, 0.35})));
 
   const double degree = glm::radians(1.0);
-  // glTF wants the inner angle below the outer. This much less is a hard edge: 4 um on the wall, where a
-  // pixel covers millimetres. Their cosines still differ as floats, for readers that divide by the
-  // difference.
+  // glTF wants the inner angle below the outer. This much less is a hard edge: 4 um on the wall,
+  // where a pixel covers millimetres. Their cosines still differ as floats, for readers that divide
+  // by the difference.
   const double hard = 12 * degree, hardInner = hard - 1e-6;
   scene.addLight({.name = "soft spot",
                   .type = "spot",

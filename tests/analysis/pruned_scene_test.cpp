@@ -222,8 +222,8 @@ TEST(SceneUseLights, ARangeThatEndsBeforeTheBoxReachesNothing) {
 }
 
 TEST(SceneUseLights, AConeThatMissesTheBallReachesNothing) {
-  // The ball about the floor, of radius sqrt(2), is seen from 10 m above under asin(sqrt(2)/10) on either
-  // side.
+  // The ball about the floor, of radius sqrt(2), is seen from 10 m above under asin(sqrt(2)/10)
+  // on either side.
   Light light = pointLight({0, 10, 0}, 1);
   light.kind = LightKind::Spot;
   light.outerConeAngle = 0.5F;

@@ -43,8 +43,8 @@ Hit bruteForce(const TriangleMesh& mesh, const Ray& ray) {
   return hit;
 }
 
-/// Slabs, widened by a relative 1e-12: far above double's rounding of them, far below what would hide a wrong
-/// box.
+/// Slabs, widened by a relative 1e-12: far above double's rounding of them, far below what would hide
+/// a wrong box.
 bool meetsBox(const TreeNode& node, int k, const Ray& ray, double tMax) {
   double t0 = 0, t1 = tMax;
   for (int axis = 0; axis < 3; ++axis) {

@@ -98,8 +98,8 @@ TEST(ListDevices, TellsTheTruthAboutThisMachine) {
   EXPECT_TRUE(selectDevice(list, "").usable);
 }
 
-/// Lists devices as a fresh process sees them with the drivers of `folder`; exit status 0 if that went as
-/// promised.
+/// Lists devices as a fresh process sees them with the drivers of `folder`; exit status 0 if that
+/// went as promised.
 [[noreturn]] void listWithDriversOf(const std::filesystem::path& folder) {
   setenv("OCL_ICD_VENDORS", folder.c_str(), 1);
   unsetenv("OCL_ICD_FILENAMES");

@@ -1,5 +1,5 @@
-// Pasting kernel files together: once each, with #line directives that let a build log name the file's own
-// lines.
+// Pasting kernel files together: once each, with #line directives that let a build log name the
+// file's own lines.
 #include "cl/kernel_source.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
   return count;
 }
 
-/// "file:line" of the first line that holds `marker`, worked out from the #line directives as a compiler
-/// does.
+/// "file:line" of the first line that holds `marker`, worked out from the #line directives as
+/// a compiler does.
 std::string placeOf(const std::string& text, const std::string& marker) {
   std::istringstream lines(text);
   std::string line, file = "?";

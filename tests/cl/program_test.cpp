@@ -1,5 +1,5 @@
-// Buffers that name themselves in messages, and builds whose failures carry the log with the file's own
-// lines.
+// Buffers that name themselves in messages, and builds whose failures carry the log with the
+// file's own lines.
 #include "cl/program.h"
 
 #include <gtest/gtest.h>

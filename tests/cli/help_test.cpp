@@ -1,5 +1,5 @@
-// Help texts: every option of the contract, once, with its default, in 80 columns, without the parser's own
-// words.
+// Help texts: every option of the contract, once, with its default, in 80 columns, without the
+// parser's own words.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -91,9 +91,9 @@ TEST(Outputs, AwayFromATerminalThereIsNoProgressAndNoDriverNoise) {
   EXPECT_EQ(run.out.find('\033'), std::string::npos);
 }
 
-/// A file-size limit of 512 bytes stands in for a full disk: the write of the picture fails, later than all
-/// checks. The reference writes through the same code as render and has no kernel compiler that would stumble
-/// first.
+/// A file-size limit of 512 bytes stands in for a full disk: the write of the picture fails, later than
+/// all checks. The reference writes through the same code as render and has no kernel compiler that
+/// would stumble first.
 TEST(Outputs, ADiskThatFillsUpLeavesTheOldPictureAndNothingElse) {
   const Folder folder;
   const std::string command =

@@ -1,5 +1,5 @@
-// Files as files: containers, URIs, versions, extensions, damaged input; and the defaults for what a file
-// lacks.
+// Files as files: containers, URIs, versions, extensions, damaged input; and the defaults for what
+// a file lacks.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// One flaw in how things look does not refuse a file: it costs a warning and the property. Structure is
-// strict.
+// One flaw in how things look does not refuse a file: it costs a warning and the property.
+// Structure is strict.
 #include <gtest/gtest.h>
 
 #include "gltf/builder.h"

@@ -150,8 +150,8 @@ TEST(GltfMaterial, TextureTransform) {
     const auto& t = slot.transform;
     return glm::vec3(t[0] * u + t[1] * v + t[2], t[3] * u + t[4] * v + t[5], 0);
   };
-  // Scale first; then a quarter turn counter-clockwise as seen with v downwards, u to -v and v to u; then the
-  // offset.
+  // Scale first; then a quarter turn counter-clockwise as seen with v downwards, u to -v and v to u;
+  // then the offset.
   expectNear(apply(1, 0), {0.5F, 0.25F - 2, 0}, 1e-6F);
   expectNear(apply(0, 1), {0.5F + 3, 0.25F, 0}, 1e-6F);
   EXPECT_TRUE(scene.uv0.empty());

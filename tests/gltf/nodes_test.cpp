@@ -172,8 +172,8 @@ TEST(GltfNodes, Instancing) {
   EXPECT_NE(b.error().find("instances have 2 and 1 elements"), std::string::npos);
 }
 
-/// A triangle whose third corner follows joint 1 by half; the mesh's own node is moved, which must not
-/// matter.
+/// A triangle whose third corner follows joint 1 by half; the mesh's own node is moved, which
+/// must not matter.
 GltfBuilder skinned() {
   GltfBuilder b;
   const int j =
@@ -318,8 +318,8 @@ TEST(GltfLights, ReferencesAreChecked) {
   EXPECT_NE(b.error().find("but there are no lights"), std::string::npos);
 }
 
-/// A room at UTM coordinates comes out as at the origin, to the bit; what is shown has the file's
-/// coordinates.
+/// A room at UTM coordinates comes out as at the origin, to the bit; what is shown has
+/// the file's coordinates.
 TEST(GltfNodes, APlaceFarAwayIsTakenOff) {
   const auto loaded = [](const std::vector<double>& place) {
     GltfBuilder b;

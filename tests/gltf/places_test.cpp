@@ -13,8 +13,8 @@ using test::GltfBuilder;
 using test::Json;
 using test::mentions;
 
-/// A node at x = 1 and, below it, one at y = 2 from there with a triangle; the scene lists `roots` of the
-/// two.
+/// A node at x = 1 and, below it, one at y = 2 from there with a triangle; the scene lists `roots`
+/// of the two.
 GltfBuilder parentAndChild(const Json& roots) {
   GltfBuilder b;
   b.node({{"translation", {1, 0, 0}}, {"children", {1}}}, false);

@@ -1,5 +1,5 @@
-// Image files: what is written is read back, what is broken is refused with one line, nothing is left half
-// written.
+// Image files: what is written is read back, what is broken is refused with one line, nothing is
+// left half written.
 #include "image/image_io.h"
 
 #include <fcntl.h>
@@ -145,8 +145,8 @@ TEST(DecodeImage, refusesWhatIsBrokenInOneLineWithTheName) {
 }
 
 TEST(DecodeImage, refusesGiantHeaders) {
-  // A picture of 16385 x 1 white bits is a good PNG of a few bytes; one column too many is enough to be
-  // refused.
+  // A picture of 16385 x 1 white bits is a good PNG of a few bytes; one column too many is enough
+  // to be refused.
   const TemporaryFolder folder;
   const Bytes row(16385, 255);
   writeWith(folder / "wide.png", OIIO::ImageSpec(16385, 1, 1, OIIO::TypeDesc::UINT8), OIIO::TypeDesc::UINT8,

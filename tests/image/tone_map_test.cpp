@@ -1,5 +1,5 @@
-// Tone map: exact sRGB below the knee, monotone and hue-keeping above it, non-finite pixels shown and
-// counted.
+// Tone map: exact sRGB below the knee, monotone and hue-keeping above it, non-finite pixels
+// shown and counted.
 #include "image/tone_map.h"
 
 #include <gtest/gtest.h>

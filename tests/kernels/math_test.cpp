@@ -1,6 +1,6 @@
-// The small mathematics of kernels/lib against exact or double-precision twins: contraction, differences of
-// products, normalisation, Fresnel reflectance, the edge of a spot light; what is in lanes with one and with
-// eight.
+// The small mathematics of kernels/lib against exact or double-precision twins: contraction, differences
+// of products, normalisation, Fresnel reflectance, the edge of a spot light; what is in lanes with one
+// and with eight.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -108,9 +108,9 @@ TEST(Math, EightAndSixteenAreAsManyTimesOne) {
   }
 }
 
-/// a·b − c·d where both products nearly agree: the sign must be the exact one, the error at most 2 units in
-/// the last place (1.5 proven by Jeannerod, Louvet and Muller 2013; the exact value is rounded once more
-/// here).
+/// a·b − c·d where both products nearly agree: the sign must be the exact one, the error at most 2
+/// units in the last place (1.5 proven by Jeannerod, Louvet and Muller 2013; the exact value is rounded
+/// once more here).
 TEST(Math, DifferenceOfProductsHasTheRightSign) {
   auto bench = makeBench();
   test::Rng rng(2);

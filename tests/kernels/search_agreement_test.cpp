@@ -14,8 +14,8 @@ using test::SearchLab;
 using test::TestHit;
 using test::TestRay;
 
-/// Rays of every kind: coherent bundles from an eye, incoherent ones, some from far away, some along the
-/// axes.
+/// Rays of every kind: coherent bundles from an eye, incoherent ones, some from far away, some
+/// along the axes.
 std::vector<TestRay> mixedRays(std::size_t count, std::uint64_t seed) {
   test::Rng rng(seed);
   std::vector<TestRay> rays;
@@ -99,9 +99,9 @@ TEST(SearchAgreement, RandomScenes) {
   }
 }
 
-/// Gravel of millimetres on a plain a hundred kilometres wide. The plain's corners round to as much as the
-/// gravel is high: its t alone may lie before its box, and which is nearer would depend on whether the box is
-/// culled.
+/// Gravel of millimetres on a plain a hundred kilometres wide. The plain's corners round to as much as
+/// the gravel is high: its t alone may lie before its box, and which is nearer would depend on whether
+/// the box is culled.
 TEST(SearchAgreement, GravelOnAPlain) {
   SearchLab lab;
   test::Rng rng(91);

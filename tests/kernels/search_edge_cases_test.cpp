@@ -17,8 +17,8 @@ using test::SearchLab;
 using test::TestHit;
 using test::TestRay;
 
-/// After pbrt's bad cases: a triangle whose corners lie on one line has no area and is never hit, at any
-/// rounding.
+/// After pbrt's bad cases: a triangle whose corners lie on one line has no area and is never hit,
+/// at any rounding.
 TEST(EdgeCases, SliversAreNotHit) {
   SearchLab lab;
   test::TriangleMesh mesh;

@@ -27,8 +27,8 @@ Barycentrics refined(Natural entry, __global const float* corners, __global cons
 }
 )";
 
-/// Out: texture coordinate from the barycentrics as given, and from the refined ones; each as high and low
-/// parts.
+/// Out: texture coordinate from the barycentrics as given, and from the refined ones; each as high
+/// and low parts.
 constexpr const char* kKernels = R"(
 __kernel void coordinates(uint n, __global const float* corners, __global const float* uv, __global const float* o,
                           __global const float* d, __global const float* hits, __global float* out) {

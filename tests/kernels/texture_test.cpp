@@ -1,5 +1,5 @@
-// Texture lookups against a twin written from host/reference/README.md, "Textures": wrap modes, filters,
-// sRGB.
+// Texture lookups against a twin written from host/reference/README.md, "Textures": wrap
+// modes, filters, sRGB.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -56,8 +56,8 @@ double linear(std::uint8_t value, bool srgb) {
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-/// Texel index for any integer, from the meaning of the wrap modes: repetition, mirror images, the border
-/// texel.
+/// Texel index for any integer, from the meaning of the wrap modes: repetition, mirror images,
+/// the border texel.
 int wrapped(long long i, int size, std::uint32_t mode) {
   if (mode == WRAP_CLAMP) return static_cast<int>(std::clamp(i, 0LL, static_cast<long long>(size) - 1));
   const long long period = mode == WRAP_REPEAT ? size : 2LL * size;
@@ -167,8 +167,8 @@ TEST(Texture, OddCoordinatesReadTheFirstTexelOrTheBorderAndNothingElse) {
     for (std::size_t i = 0; i < out.size(); ++i)
       EXPECT_EQ(out[i], static_cast<float>(p.texels[0][i % 4]) / 255.0F)
           << "mode " << mode << " lookup " << i / 4;
-    // Huge ones, and one just below 0 that rounds to 1 when repeated, stay inside the picture: a blend of its
-    // texels.
+    // Huge ones, and one just below 0 that rounds to 1 when repeated, stay inside the picture: a blend
+    // of its texels.
     const auto huge =
         lookup(t, p, false, {1e30F, -1e30F, 3e38F, 0.5F, -1e-20F, -1e-20F, 16777217.0F, -16777217.0F});
     for (std::size_t i = 0; i < huge.size(); ++i) {

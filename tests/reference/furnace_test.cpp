@@ -81,8 +81,8 @@ TEST(Furnace, SheetsAndHalfMetals) {
   half.baseColor.a = 0.6F;
   addFloor(scene, half, 0, true, 1.5F);
   addFloor(scene, glass(1.5F, false), 0.5F, false, 1.5F);
-  // The sheets reflect 0.6 (0.5 · 0.04 + 0.5) = 0.312 and 0.04: 0.0125^24 is left after 48 bounces between
-  // them.
+  // The sheets reflect 0.6 (0.5 · 0.04 + 0.5) = 0.312 and 0.04: 0.0125^24 is left after 48
+  // bounces between them.
   Probe probe(scene, deep(48));
   Rng rng(3);
   for (int i = 0; i < 50; ++i) {

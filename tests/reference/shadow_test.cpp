@@ -9,8 +9,8 @@
 namespace whittle::test {
 namespace {
 
-/// A white floor at y = 0, a light of 4 W/sr at y = 2 above it, sheets of `materials` at `heights` in that
-/// order.
+/// A white floor at y = 0, a light of 4 W/sr at y = 2 above it, sheets of `materials` at `heights`
+/// in that order.
 Probe underSheets(const std::vector<std::pair<float, Material>>& sheets, bool castsShadows = true) {
   Scene scene;
   addFloor(scene, lambert(glm::vec3(1)), 0);

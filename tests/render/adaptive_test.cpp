@@ -1,5 +1,5 @@
-// Samples that go where the error is: what each pixel gets is what a plain render with as many samples gives
-// it.
+// Samples that go where the error is: what each pixel gets is what a plain render with as many
+// samples gives it.
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -35,8 +35,8 @@ TEST(SampleCounts, TheLastBlockIsShorter) {
 
 TEST(AdaptivePasses, DoubleWhereASampleTakesMostOffTheError) {
   const SampleCounts counts = countsOf(16);
-  // Block 5 is a sixth of the others' size: its gain for each sample is the largest though its variance is
-  // not.
+  // Block 5 is a sixth of the others' size: its gain for each sample is the largest though its
+  // variance is not.
   const std::vector<double> variances{1.0, 4.0, 0.0, 2.0, 3.0, 1.0};
   const auto passes = adaptivePasses(counts, variances, 16 * (10 + 64 + 64), kNoLimit);
   ASSERT_EQ(passes.size(), 1U);

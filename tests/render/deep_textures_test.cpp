@@ -17,8 +17,8 @@ std::uint16_t slopeCode(int i) { return static_cast<std::uint16_t>(32768 + 16 * 
 /// 0 to 0.03: all of them lie within four steps of 8 bits.
 double slope(int i) { return slopeCode(i) / 65535.0 * 2 - 1; }
 
-/// A floor seen from above, its normal tilted towards +x by a little more from pixel to pixel; a light from
-/// there.
+/// A floor seen from above, its normal tilted towards +x by a little more from pixel to pixel; a
+/// light from there.
 Scene slopes() {
   Scene scene;
   Material material = lambert(glm::vec3(0.5F));

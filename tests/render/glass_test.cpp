@@ -29,8 +29,8 @@ TEST(DeviceFurnace, NothingIsBrighterAndNearlyAllIsWhite) {
     ASSERT_LE(v, 1 + 2e-6 * kBounces);
     white += std::abs(v - 1) <= 2e-6 * kBounces;
   }
-  // Grazing light in the balls and what total reflection holds in the block leave later than at the last
-  // bounce.
+  // Grazing light in the balls and what total reflection holds in the block leave later than at
+  // the last bounce.
   EXPECT_GT(double(white), 0.9 * double(result.radiance.pixels.size()));
   EXPECT_GT(result.stats.rays.impulse, 20000U);
 }

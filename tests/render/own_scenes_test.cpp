@@ -8,8 +8,8 @@ namespace {
 class OwnScene : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(OwnScene, AgreesWithTheReference) {
-  // Measured: no outlier, every ray count equal. One edge within rounding of a ray may come with other
-  // arithmetic.
+  // Measured: no outlier, every ray count equal. One edge within rounding of a ray may come
+  // with other arithmetic.
   expectAgreement(compareWithReference(ownScene(GetParam()), smallSettings()), GetParam(), 1);
 }
 

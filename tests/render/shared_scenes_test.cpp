@@ -10,8 +10,8 @@ struct SharedCase {
   const char* path;
   std::size_t outliers = 5;  ///< of 5184 pixels
   int camera = 0;
-  double rmse =
-      0;  ///< asked of all pixels that hit the same, over the mean; 0: of those that are no outliers
+  /// Asked of all pixels that hit the same, over the mean; 0: of those that are no outliers.
+  double rmse = 0;
 };
 
 void PrintTo(const SharedCase& c, std::ostream* out) { *out << c.name; }

@@ -215,8 +215,8 @@ TEST(StraightOn, AStackOfPanesStaysBounded) {
   for (int i = 1; i <= 30; ++i)
     addQuad(scene, pane, {-4, 0.1F * static_cast<float>(i), -4}, {0, 0, 8}, {8, 0, 0});
   const RenderResult result = lookDown(scene, 5, kForms[0], {});
-  // 2^7 as if each passage were a bounce, what still carries an eighth, and the panes that each of those
-  // passes.
+  // 2^7 as if each passage were a bounce, what still carries an eighth, and the panes that each
+  // of those passes.
   EXPECT_LT(result.stats.rays.impulse, 64U * 40 * (128 + 8));
   EXPECT_GT(colorOf(result).x, std::pow(0.96, 30) * 0.99);
 }

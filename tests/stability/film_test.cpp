@@ -22,8 +22,8 @@ struct Edge {
   double rise;
 };
 
-/// Area of pixel [x, x+1] × [y, y+1] below the line: the integral of the clamped height, exact for straight
-/// pieces.
+/// Area of pixel [x, x+1] × [y, y+1] below the line: the integral of the clamped height, exact
+/// for straight pieces.
 double areaBelow(const Edge& e, double x, double y) {
   const auto integral = [&](double height) {  // of max(0, line − height) over [x, x+1]
     const double a = e.slope * x + e.rise - height, b = a + e.slope;

@@ -137,8 +137,8 @@ TEST(CaseMirrors, WhatUnderflowsIsNotTracedOn) {
   scene.cameras = {rayCamera({0.1, 0.5, 0.2}, {0, 1, 0})};
   const RenderResult result = seen(scene, caseSettings(1, 1, 64));
   EXPECT_EQ(colorOf(result), glm::vec3(0));
-  // 1e-3^15 is the last power above half of the smallest subnormal, 1.4e-45: rays beyond are time for
-  // nothing.
+  // 1e-3^15 is the last power above half of the smallest subnormal, 1.4e-45: rays beyond are
+  // time for nothing.
   const auto rays = static_cast<double>(result.stats.rays.impulse);
   record({"28", "facing mirrors of 1e-3, depth 64, no emission", "0, and no ray beyond 1e-3^15 (of 63)",
           fmt::format("{:g} rays", rays), std::max(0.0, rays - 15), "rays too many", 0});

@@ -41,8 +41,8 @@ TEST(CaseSurfaces, GapsAreKeptDownToTheRayOffset) {
       smallest = std::ldexp(widest, -static_cast<int>(k));
     for (std::size_t k = 0; k < kGaps && red(views.reference.radiance, k) == 0; ++k)
       exact = std::ldexp(widest, -static_cast<int>(k));
-    // The origin of a shadow ray is 2^-20 of the largest coordinate above the surface: here z, or x = 12
-    // sides.
+    // The origin of a shadow ray is 2^-20 of the largest coordinate above the surface: here z, or x
+    // = 12 sides.
     const double reach = std::max(away + 1.0 * std::max(1.0, away / 64), 13.0);
     record({"8", fmt::format("parallel squares {} m from the origin, gaps halved from {} m", away, widest),
             "kept down to two ray offsets of 2^-20 of the distance",
@@ -89,8 +89,8 @@ TEST(CaseSurfaces, MovingTheSceneAddsNoAcneAndErrorsGrowSmoothly) {
     }
     recordCount("9", fmt::format("floor, blocker and lamp on a grid of 1/16 m, moved by {:g} m", by),
                 "lit where the unmoved scene is", acne, 16 * 8, "pixels");
-    // A hit is off by some four roundings of its coordinates, and radiance at 8 m falls by 3/8 for each
-    // metre.
+    // A hit is off by some four roundings of its coordinates, and radiance at 8 m falls by 3/8
+    // for each metre.
     record({"9", "the same: radiance", "that of the unmoved scene (formula)", worst.result(), worst.error(),
             "relative", 2e-6 + 4 * static_cast<double>(by) * 0x1p-24 * 3 / 4});
   }

@@ -26,8 +26,8 @@ using reference::Vec3;
 constexpr double kMove = 2e-6;
 /// Moved copies of each ray: all miss an edge that lies beside the ray with probability 2^-32.
 constexpr int kMoved = 32;
-/// The same for a light, m: it may lie in a surface, and rounding then decides whether that surface is in its
-/// way.
+/// The same for a light, m: it may lie in a surface, and rounding then decides whether that surface is
+/// in its way.
 constexpr float kMoveLight = 1e-6F;
 /// Share of the mean radiance beyond which a pixel is an outlier: ten times the RMSE that is asked for.
 constexpr double kOutlier = 1e-3;

@@ -119,9 +119,9 @@ inline void refineTowardsCorner(Surface& s, Rng& rng) {
   }
 }
 
-/// Three different corners on one line, as the kernels see it: such a triangle is nowhere hit, and two of its
-/// neighbours then meet the third along an edge that is not theirs. A surface with one of those is not
-/// closed.
+/// Three different corners on one line, as the kernels see it: such a triangle is nowhere hit, and two
+/// of its neighbours then meet the third along an edge that is not theirs. A surface with one of those
+/// is not closed.
 inline bool hasSeam(const TriangleMesh& mesh) {
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const glm::uvec3& t) {
     const glm::vec3 p0 = mesh.positions[t.x], p1 = mesh.positions[t.y], p2 = mesh.positions[t.z];

@@ -39,8 +39,8 @@ class LaneBench {
       : one_(files, kLaneHelpers + testKernels, kAllFeatures & ~kPackets),
         eight_(files, kLaneHelpers + testKernels, kAllFeatures) {}
 
-  /// As KernelBench::map, but that vectors among the inputs are uploaded. Fails where the widths differ in a
-  /// bit.
+  /// As KernelBench::map, but that vectors among the inputs are uploaded. Fails where the widths differ
+  /// in a bit.
   template <typename T, typename... Args>
   std::vector<T> map(const std::string& kernel, std::uint32_t count, std::size_t perItem,
                      const Args&... inputs) {

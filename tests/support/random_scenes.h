@@ -26,8 +26,8 @@ struct TriangleMesh {
   }
 };
 
-/// A small counter-based generator (splitmix64, Steele et al. 2014): <random>'s distributions differ between
-/// libraries.
+/// A small counter-based generator (splitmix64, Steele et al. 2014): <random>'s distributions
+/// differ between libraries.
 class Rng {
  public:
   explicit Rng(std::uint64_t seed) : state_(seed) {}

@@ -1,6 +1,6 @@
 // Rows of the table of numerical cases (experiments/run e10): what a check of a case expected, what
-// came out, how far off it was, how far it may be. A row is a property of its test in gtest's report, as
-// JSON.
+// came out, how far off it was, how far it may be. A row is a property of its test in gtest's
+// report, as JSON.
 #pragma once
 
 #include <fmt/format.h>

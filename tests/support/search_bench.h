@@ -204,11 +204,11 @@ inline std::vector<ExactHit> exactHits(const Scene& scene, const TestRay& ray, d
   return hits;
 }
 
-/// Judges the answer of a float search: "" if exact arithmetic agrees or the answer differs by rounding
-/// alone.
+/// Judges the answer of a float search: "" if exact arithmetic agrees or the answer differs
+/// by rounding alone.
 inline std::string judge(const Scene& scene, const TestRay& ray, const TestHit& hit) {
-  // Rounding of the sheared corners: some 5 roundings of 2^-24 relative to the extent; 16 leaves room for the
-  // division.
+  // Rounding of the sheared corners: some 5 roundings of 2^-24 relative to the extent; 16 leaves room
+  // for the division.
   const double rounding = 16 * 0x1p-24;
   const auto hits = exactHits(scene, ray, rounding);
   const auto slackT = [&](const ExactHit& h) {

@@ -1,5 +1,5 @@
-// Scenes built by hand for the device: cameras that send one ray, or a row of parallel ones, and what comes
-// back.
+// Scenes built by hand for the device: cameras that send one ray, or a row of parallel ones, and
+// what comes back.
 #pragma once
 
 #include "support/pictures.h"

@@ -1,5 +1,5 @@
-// Branching in bounded memory: queues are cut, nothing is dropped, and long runs of one sample are sliced
-// alike.
+// Branching in bounded memory: queues are cut, nothing is dropped, and long runs of one sample
+// are sliced alike.
 #include "kernels/shared/features.h"
 #include "kernels/shared/layout.h"
 #include "support/agreement.h"
@@ -71,8 +71,8 @@ TEST(BoundedMemory, LongRunsAreSlicedAlike) {
   const Stats& stats = agreement.kernel.stats;
   EXPECT_EQ(stats.rays.impulse, 32U * ((1U << 13) - 2)) << "each ray splits at each bounce";
   EXPECT_GT(stageOf(stats, "find_long_runs").launches, 0U);
-  // At bounce 10 a sample has 512 entries, two slices; each then grows and is sliced again: far more than 13
-  // segments.
+  // At bounce 10 a sample has 512 entries, two slices; each then grows and is sliced again: far more
+  // than 13 segments.
   EXPECT_GT(stageOf(stats, "intersect").launches, 13U + 2 * 32);
   settings.raysPerPixel = 3;
   const RenderResult three = renderOnDevice(sheets(), settings);

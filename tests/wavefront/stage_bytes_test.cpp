@@ -1,5 +1,5 @@
-// Bytes that stages move, (wavefront/stages.h) against counts made by hand from what the kernels read and
-// write.
+// Bytes that stages move, (wavefront/stages.h) against counts made by hand from what the kernels
+// read and write.
 #include "support/pictures.h"
 
 namespace whittle::test {

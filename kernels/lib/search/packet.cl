@@ -224,8 +224,8 @@ INLINE int testNearestPacket(const SceneView* scene, const Packet* p, __global c
 }
 
 #if HAS(FILTERED_SHADOWS) || HAS(ALPHA_MASK)
-/// The lanes of `met` that triangle `index` (leaf order) blocks; the others may be dimmed. stops: [3][16], see
-/// testOcclusion.
+/// The lanes of `met` that triangle `index` (leaf order) blocks; the others may be dimmed. stops:
+/// [3][16], see testOcclusion.
 int16 filterOcclusion(const SceneView* scene, const Packet* p, uint index, int16 met, float16 tMax, uint* stops) {
   if (!(scene->triangles[index].flags & (TRIANGLE_FILTERS | TRIANGLE_MASKED))) return met;
   int lanes[PACKET_RAYS];

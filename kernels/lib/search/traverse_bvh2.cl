@@ -4,9 +4,9 @@
 #include "lib/search/surface.cl"
 #include "lib/search/triangle.cl"
 
-// What the triangle test takes must not be lost to its box. Relative to t, two box distances are off by 3 roundings
-// each, a corner sheared onto the ray by 12 on each of two axes, which makes 30 · 2^-24, and t itself by 15: 32 covers
-// either.
+// What the triangle test takes must not be lost to its box. Relative to t, two box distances are off by 3
+// roundings each, a corner sheared onto the ray by 12 on each of two axes, which makes 30 · 2^-24, and t itself by
+// 15: 32 covers either.
 #if HAS(STRAIGHT)
 #define FAR_WIDENING 1.0000031f  // and what may lie COAT_ORDER behind the nearest
 #else

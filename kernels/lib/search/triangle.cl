@@ -137,9 +137,9 @@ INLINE float clampToBox(const Ray* r, __global const DeviceTriangle* triangle, f
 }
 
 /// True if the ray meets the triangle at 0 < t <= tMax; `hit` then holds distance and barycentrics. intersectLeaf and
-/// intersectAxis do the same for other layouts; SearchAgreement in tests/kernels holds them to the same bits. The host
-/// turns a triangle without area into a point (det 0, t not a number): rounding could open it in the plane across the
-/// ray.
+/// intersectAxis do the same for other layouts; SearchAgreement in tests/kernels holds them to the same bits. The
+/// host turns a triangle without area into a point (det 0, t not a number): rounding could open it in the plane
+/// across the ray.
 INLINE int intersectTriangle(const Ray* r, __global const DeviceTriangle* triangle, float tMax, Candidate* hit) {
   const float az = triangle->v[0][r->kz] - r->o[r->kz];
   const float bz = triangle->v[1][r->kz] - r->o[r->kz];

@@ -1,5 +1,5 @@
-// Fresnel reflectance: exact for dielectrics, Schlick 1994 for metals and for the microfacet lobe (glTF 2.0, appendix
-// B).
+// Fresnel reflectance: exact for dielectrics, Schlick 1994 for metals and for the microfacet lobe (glTF
+// 2.0, appendix B).
 #include "lib/lanes.cl"
 
 /// Unpolarised reflectance at an interface; eta = n_t / n_i, cosine = n·w_o in [0, 1]. 1 at total reflection, where

@@ -1,8 +1,8 @@
-// How far rays start off the surface that they leave, lest it stops them: 2^-20 of the hit's largest coordinate, along
-// the geometric normal, on the side that they leave to. In units of 2^-24 of that coordinate: blending three corners is
-// off by at most 7 along each axis (Pharr, Jakob, Humphreys 2023, 6.8.5), 7 sqrt(3) along any normal; adding the
-// offset, by sqrt(3) more. That is 13.9 of the 16; the rest is for the rounding of the search. Others:
-// experiments/README.md.
+// How far rays start off the surface that they leave, lest it stops them: 2^-20 of the hit's largest coordinate,
+// along the geometric normal, on the side that they leave to. In units of 2^-24 of that coordinate: blending
+// three corners is off by at most 7 along each axis (Pharr, Jakob, Humphreys 2023, 6.8.5), 7 sqrt(3) along any
+// normal; adding the offset, by sqrt(3) more. That is 13.9 of the 16; the rest is for the rounding of the
+// search. Others: experiments/README.md.
 #include "lib/surface/surfel.cl"
 
 /// Distance that origins keep from the hit, m.

@@ -29,11 +29,11 @@ INLINE Real3 fma3(Real s, Real3 v, Real3 plus) {
   return real3(fma(s, v.x, plus.x), fma(s, v.y, plus.y), fma(s, v.z, plus.z));
 }
 
-/// Barycentrics of the hits at distance t of the rays o + t d, found again from where those points lie beside the first
-/// corner: a search's own are off by the rounding of distances to the ray's origin, which a texture shows on a far or
-/// slanted triangle. Solved once for (b1, b2) and once more for what they leave over; every difference keeps what it
-/// lost. An error of t is along d, and changes nothing. Clamped to the triangle; `found` where it is seen from its
-/// edge.
+/// Barycentrics of the hits at distance t of the rays o + t d, found again from where those points lie beside the
+/// first corner: a search's own are off by the rounding of distances to the ray's origin, which a texture shows on a
+/// far or slanted triangle. Solved once for (b1, b2) and once more for what they leave over; every difference keeps
+/// what it lost. An error of t is along d, and changes nothing. Clamped to the triangle; `found` where it is seen
+/// from its edge.
 INLINE Barycentrics refinedBarycentrics(Real3 p0, Real3 p1, Real3 p2, Real3 o, Real3 d, Real t, Barycentrics found) {
   const Real3 e1 = sub3(p1, p0), e2 = sub3(p2, p0);
   const Real3 from = sub3(o, p0), along = scale3(t, d), beside = add3(from, along);

@@ -183,10 +183,11 @@ Wavefront::Candidates Wavefront::countCandidates(Segment segment, bool mayEnd) {
                                    .flags = queues_.flags,
                                    .impulses = mayEnd ? queues_.impulses : none,
                                    .totals = queues_.totals});
-  stages_.run(stages::ScanChunks{.chunks = chunksOf(segment),
-                                 .totals = queues_.totals,
-                                 .sums = queues_.sums,
-                                 .kinds = mayEnd ? SUM_ENDED + ENDED_KINDS : SUM_ENDED});
+  stages_.run(stages::ScanChunks{
+      .chunks = chunksOf(segment),
+      .totals = queues_.totals,
+      .sums = queues_.sums,
+      .kinds = mayEnd ? std::uint32_t{SUM_ENDED + ENDED_KINDS} : std::uint32_t{SUM_ENDED}});
   std::array<std::uint32_t, SUMS> sums{};
   const auto work = stages_.hostWork("wait for counts");
   compute_.read(queues_.sums, 0, queues_.sums.bytes, sums.data());

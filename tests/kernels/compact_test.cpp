@@ -94,10 +94,11 @@ class Compaction {
   void countAndScan(const Buffer& flags, std::uint32_t count, const Buffer& impulses) {
     bench.stages.run(stages::CompactCount{
         .count = count, .capacity = kCapacity, .flags = flags, .impulses = impulses, .totals = totals_});
-    bench.stages.run(stages::ScanChunks{.chunks = chunks(count),
-                                        .totals = totals_,
-                                        .sums = sums_,
-                                        .kinds = impulses ? SUM_ENDED + ENDED_KINDS : SUM_ENDED});
+    bench.stages.run(stages::ScanChunks{
+        .chunks = chunks(count),
+        .totals = totals_,
+        .sums = sums_,
+        .kinds = impulses ? std::uint32_t{SUM_ENDED + ENDED_KINDS} : std::uint32_t{SUM_ENDED}});
   }
   /// kind: 0 shadow rays, 1 impulses.
   void scan(const Buffer& flags, std::uint32_t count, std::size_t kind) {

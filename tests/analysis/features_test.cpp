@@ -158,7 +158,8 @@ TEST(Features, ThoseThatASceneDoesNotNeedChangeNothing) {
   const RenderResult plain = renderOnDevice(scene, settings);
   EXPECT_GT(colorOf(plain, 36).x, 0);
   std::vector<FeatureLine> spare;
-  for (const auto& line : SceneFeatures::analyse(scene, settings, {true}).lines())
+  const SceneFeatures features = SceneFeatures::analyse(scene, settings, {true});
+  for (const auto& line : features.lines())
     if (!line.used) spare.push_back(line);
   EXPECT_GT(spare.size(), 30U);
   ASSERT_LE(spare.size(), 64U);

@@ -148,9 +148,8 @@ TEST(Features, WhatASettingRulesOutIsNotKept) {
             nlohmann::json({featureText(Feature::MICROFACET), featureText(Feature::METAL)}));
 }
 
-/// In groups: those whose place in the list has a certain bit set, or not set. So each is tried with and
-/// without any other, and those groups that fail have the culprit in common; one render for each feature
-/// would compile four times as much.
+/// In groups: those whose place in the list has one of its lowest three bits set, or not set. So each is
+/// tried with and without most of the others, and the groups that fail have the culprit in common.
 TEST(Features, ThoseThatASceneDoesNotNeedChangeNothing) {
   const Scene scene = plainScene();
   Settings settings;
@@ -163,7 +162,7 @@ TEST(Features, ThoseThatASceneDoesNotNeedChangeNothing) {
     if (!line.used) spare.push_back(line);
   EXPECT_GT(spare.size(), 30U);
   ASSERT_LE(spare.size(), 64U);
-  for (std::size_t bit = 0; bit < 6; ++bit)
+  for (std::size_t bit = 0; bit < 3; ++bit)
     for (const std::size_t side : {0U, 1U}) {
       Settings forced = settings;
       std::string names;

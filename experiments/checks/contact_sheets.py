@@ -21,6 +21,7 @@ from same_bits import ROOT, scenes
 LONGER = 144  # pixels of a picture's longer side
 LABEL = 14    # pixels of the line below it
 COLUMNS, ROWS = 10, 8
+FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"  # of fonts-dejavu-core; without it the sheets have no names
 NAMELESS = ("scene", "untitled")  # files that are called so have the name of their folder
 
 
@@ -83,7 +84,7 @@ class Sheets:
                 one.set_pixels(oiio.ROI(0, self.width, 0, self.height, 0, 1, 0, 3), numpy.ascontiguousarray(codes))
                 oiio.ImageBufAlgo.paste(sheet, left + p * self.width, top, 0, 0, one)
             oiio.ImageBufAlgo.render_text(sheet, left + 2, top + self.height + LABEL - 4, name[:self.width * self.pictures // 6],
-                                          10, "", (1, 1, 1))
+                                          10, FONT, (1, 1, 1))
         sheet.write(str(self.folder / f"{self.stem}_{self.sheets:02}.png"))
         self.sheets += 1
         self.cells = []

@@ -34,7 +34,7 @@ struct Lamp {
 constexpr std::array kLamps{
     Lamp{"studio key", {-0.5, 0.8, -0.7}, 2.5F, true, 5.0, 0.35},
     Lamp{"studio fill", {0.8, 0.2, -0.6}, 0.6F, false, 1.2, 0.5},
-    Lamp{"studio rim", {0.3, 0.6, 0.9}, 1.0F, false, 2.5, 0.3},
+    Lamp{"studio rim", {0.3, 1.0, 0.7}, 1.0F, false, 2.5, 0.3},  // above what a level camera sees
 };
 
 glm::dvec3 towards(const Frame& frame, const Lamp& lamp) {

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Does any scene come out black, burnt out or empty? Every scene there is, ours and shared ones, small, at several shapes
-of picture, with the options that a newcomer gives: none. As a table: shares of pixels that are black, white, and all of
-one colour. With --sheets also as contact sheets, PNG files that one can look at; with --other a second build's picture
+"""Does any scene come out black, burnt out or empty? Every scene there is, ours and shared ones, small, at several
+shapes of picture, with the options that a newcomer gives: none. As a table: shares of pixels that are black, white,
+and of the commonest colour. With --sheets also as contact sheets, PNG files that one can look at; with --other a second build's picture
 stands to the right of each.
 
 usage: experiments/run contact_sheets [-- [--sheets FOLDER] [--other WHITTLE] [--shapes 16:9,1:1,9:16] [SCENE ...]]
@@ -83,8 +83,8 @@ class Sheets:
                 one = oiio.ImageBuf(oiio.ImageSpec(self.width, self.height, 3, oiio.UINT8))
                 one.set_pixels(oiio.ROI(0, self.width, 0, self.height, 0, 1, 0, 3), numpy.ascontiguousarray(codes))
                 oiio.ImageBufAlgo.paste(sheet, left + p * self.width, top, 0, 0, one)
-            oiio.ImageBufAlgo.render_text(sheet, left + 2, top + self.height + LABEL - 4, name[:self.width * self.pictures // 6],
-                                          10, FONT, (1, 1, 1))
+            label = name[:self.width * self.pictures // 6]
+            oiio.ImageBufAlgo.render_text(sheet, left + 2, top + self.height + LABEL - 4, label, 10, FONT, (1, 1, 1))
         sheet.write(str(self.folder / f"{self.stem}_{self.sheets:02}.png"))
         self.sheets += 1
         self.cells = []

@@ -1,18 +1,41 @@
 // Parse, run, exit status; the only place that catches. 0 done, 1 the run failed, 2
 // wrong usage or unusable input.
-#include <fmt/format.h>
+#include <unistd.h>
 
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <stdexcept>
 
 #include "cli/application.h"
+#include "cli/speech.h"
 #include "scene/input_error.h"
 
+namespace {
+
+/// Not an exception: where the driver asks for memory it would pass through code that holds its locks, and
+/// our way out would wait for them for ever. What is written takes its name when it is whole, so that nothing
+/// half done stays.
+[[noreturn]] void endForLackOfMemory() {
+  static constexpr char kText[] =
+      "whittle: out of memory; a smaller picture, --wavefront or scene needs less\n";
+  [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
+  ::_exit(1);
+}
+
+/// A library that cannot start a thread, or throws where nobody may: mostly for lack of memory.
+[[noreturn]] void endForLackOfThreads() {
+  whittle::cli::complain("a library cannot go on: out of memory or of threads?");
+  ::_exit(1);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  std::set_new_handler(endForLackOfMemory);
+  std::set_terminate(endForLackOfThreads);
+  whittle::cli::settleStreams();
   const auto fail = [](const char* text, int status) {
-    fmt::print(stderr, "whittle: {}\n", text);
+    whittle::cli::complain(text);
     return status;
   };
   try {

@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/help.h"
 #include "cli/signals.h"
+#include "cli/speech.h"
 #include "programs/compiler_process.h"
 #include "report/text.h"
 #include "scene/input_error.h"
@@ -104,7 +105,7 @@ int runApplication(int argc, const char* const* argv) {
   int status = 0;
   addCommands(app, status);
   if (argc < 2) {
-    fmt::print(stderr, "{}", app.help());
+    tellError(app.help());
     return 2;
   }
   // `whittle -- render …`: what follows is no option of the program, which has none to speak of.
@@ -117,8 +118,7 @@ int runApplication(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& e) {
     explain(e, app);
   }
-  if (std::fflush(stdout) != 0)
-    throw std::runtime_error("standard output cannot be written: is the disk full?");
+  finishOutput();
   return status;
 }
 

@@ -14,6 +14,7 @@
 #include "cli/option_kinds.h"
 #include "cli/options.h"
 #include "cli/progress_bar.h"
+#include "cli/speech.h"
 #include "report/text.h"
 
 namespace whittle::cli {
@@ -58,30 +59,32 @@ void printJson(const BenchCommand& o, const BenchResult& r) {
                                     {"build", build},
                                     {"kernels", kernels},
                                     {"rows", rows}};
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  tellJson(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 void printTable(const BenchResult& r) {
-  fmt::print("{}, {}, {}\n", formatSome(r.triangles, "triangle", "triangles"),
-             formatSome(static_cast<std::uint64_t>(r.threads), "thread", "threads"), r.device);
-  fmt::print("tree: {:.3f} s, {:.0f} bytes for each triangle", r.buildSeconds, r.bytesPerTriangle);
-  if (haveEmbree()) fmt::print("; Embree: {:.3f} s", r.embreeSeconds);
-  fmt::print("\nread by");
+  tell(fmt::format("{}, {}, {}\n", formatSome(r.triangles, "triangle", "triangles"),
+                   formatSome(static_cast<std::uint64_t>(r.threads), "thread", "threads"), r.device));
+  tell(fmt::format("tree: {:.3f} s, {:.0f} bytes for each triangle", r.buildSeconds, r.bytesPerTriangle));
+  if (haveEmbree()) tell(fmt::format("; Embree: {:.3f} s", r.embreeSeconds));
+  tell("\nread by");
   for (const KernelMemory& k : r.kernels)
-    fmt::print("{} {}: {:.0f} + {:.0f}", &k == &r.kernels.front() ? "" : ",", k.kernel, k.nodes, k.triangles);
-  fmt::print(" bytes of nodes + triangles for each triangle\n\n{:<11} {:<8} {:<9} {:>10} {:>9}", "rays",
-             "query", "kernel", "count", "Mrays/s");
-  if (haveEmbree()) fmt::print(" {:>9} {:<19} {:>6} {:>9}", "Embree's", "best mode", "ratio", "disagree");
-  fmt::print("\n");
+    tell(fmt::format("{} {}: {:.0f} + {:.0f}", &k == &r.kernels.front() ? "" : ",", k.kernel, k.nodes,
+                     k.triangles));
+  tell(fmt::format(" bytes of nodes + triangles for each triangle\n\n{:<11} {:<8} {:<9} {:>10} {:>9}", "rays",
+                   "query", "kernel", "count", "Mrays/s"));
+  if (haveEmbree())
+    tell(fmt::format(" {:>9} {:<19} {:>6} {:>9}", "Embree's", "best mode", "ratio", "disagree"));
+  tell("\n");
   for (const BenchRow& row : r.rows) {
-    fmt::print("{:<11} {:<8} {:<9} {:>10} {:>9.2f}", row.rays, row.query, row.kernel,
-               formatInteger(row.count), row.mraysPerSecond);
+    tell(fmt::format("{:<11} {:<8} {:<9} {:>10} {:>9.2f}", row.rays, row.query, row.kernel,
+                     formatInteger(row.count), row.mraysPerSecond));
     if (haveEmbree())
-      fmt::print(" {:>9.2f} {:<19} {:>6.2f} {:>9}", row.embreeMraysPerSecond, row.embreeMode, row.ratio,
-                 formatInteger(row.disagree));
-    fmt::print("\n");
+      tell(fmt::format(" {:>9.2f} {:<19} {:>6.2f} {:>9}", row.embreeMraysPerSecond, row.embreeMode, row.ratio,
+                       formatInteger(row.disagree)));
+    tell("\n");
   }
-  if (!haveEmbree()) fmt::print("\nThis build has no Embree to compare with.\n");
+  if (!haveEmbree()) tell("\nThis build has no Embree to compare with.\n");
 }
 
 /// Says where rates are of launches rather than of rays.
@@ -92,11 +95,11 @@ void noteShortRows(const BenchResult& r) {
   };
   const auto count = static_cast<std::size_t>(std::count_if(r.rows.begin(), r.rows.end(), isShort));
   if (count > 0)
-    fmt::print(stderr,
-               "note: {} of {} rows have so few rays that launching a kernel ({:.0f} µs) takes a fifth of "
-               "their time "
-               "or more; --rays asks for more\n",
-               count, r.rows.size(), r.launchSeconds * 1e6);
+    note(
+        fmt::format("{} of {} rows have so few rays that launching a kernel ({:.0f} µs) takes a fifth of "
+                    "their time "
+                    "or more; --rays asks for more",
+                    count, r.rows.size(), r.launchSeconds * 1e6));
 }
 
 void runBenchCommand(BenchCommand& o) {

@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/outputs.h"
+#include "cli/speech.h"
 #include "image/metrics.h"
 #include "report/text.h"
 
@@ -37,7 +38,7 @@ nlohmann::ordered_json finiteOrNull(double value) {
 
 void print(const ImageMetrics& m, std::uint64_t pixels) {
   const auto line = [](const char* name, const std::string& value, const char* meaning) {
-    fmt::print("{:<16} {:>12}  {}\n", name, value, meaning);
+    tell(fmt::format("{:<16} {:>12}  {}\n", name, value, meaning));
   };
   line("rmse", fmt::format("{:.6g}", m.rmse), "root mean square difference");
   line("relMse", fmt::format("{:.6g}", m.relMse), "mean of (a-b)²/(b²+0.01)");
@@ -51,19 +52,19 @@ int runCompare(const CompareOptions& o) {
   const FloatImage a = readFloatImage(o.a);
   const FloatImage b = readFloatImage(o.b);
   if (a.width != b.width || a.height != b.height || colorChannels(a) != colorChannels(b)) {
-    fmt::print(stderr, "whittle: {} but {}: they cannot be compared\n", shapeOf(o.a, a), shapeOf(o.b, b));
+    complain(fmt::format("{} but {}: they cannot be compared", shapeOf(o.a, a), shapeOf(o.b, b)));
     return 1;
   }
   if (isToneMapped(o.a) != isToneMapped(o.b))
-    fmt::print(stderr,
-               "note: one picture is linear, the other tone-mapped and cut off at white: their difference "
-               "holds that too\n");
+    note(
+        "one picture is linear, the other tone-mapped and cut off at white: their difference "
+        "holds that too");
   const ImageMetrics m = compareImages(a, b, shownAs(o.a), shownAs(o.b));
   const auto pixels = static_cast<std::uint64_t>(a.width) * static_cast<std::uint64_t>(a.height);
   if (m.nonFinite + m.nonFiniteReference > 0)
-    fmt::print(stderr, "warning: pixels that are not finite: {} in {}, {} in {}; {}\n",
-               formatInteger(m.nonFinite), o.a.string(), formatInteger(m.nonFiniteReference), o.b.string(),
-               o.json ? "numbers that are not finite are null" : "they make the numbers nan or inf");
+    warn(fmt::format("pixels that are not finite: {} in {}, {} in {}; {}", formatInteger(m.nonFinite),
+                     o.a.string(), formatInteger(m.nonFiniteReference), o.b.string(),
+                     o.json ? "numbers that are not finite are null" : "they make the numbers nan or inf"));
   if (!o.json) {
     print(m, pixels);
     return 0;
@@ -76,7 +77,7 @@ int runCompare(const CompareOptions& o) {
                                     {"pixels", pixels},
                                     {"nonFinite", m.nonFinite},
                                     {"nonFiniteReference", m.nonFiniteReference}};
-  fmt::print("{}\n", json.dump(2));
+  tellJson(json.dump(2) + "\n");
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include "cl/device.h"
 #include "cl/program.h"
 #include "cli/commands.h"
+#include "cli/speech.h"
 #include "report/text.h"
 
 namespace whittle::cli {
@@ -29,22 +30,22 @@ void printJson(const DeviceList& list) {
                                {"floatLanes", d.floatLanes},
                                {"usable", d.usable},
                                {"reason", d.reason}});
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  tellJson(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 void printTable(const DeviceList& list) {
   for (const auto& d : list.devices) {
-    fmt::print("{}  {}  {}\n", d.index, d.kind, d.name);
-    fmt::print("   {}\n", d.platform);
-    fmt::print("   {}\n   driver {}\n", d.version, d.driver);
-    fmt::print("   {}, {} of memory, {} at most in one buffer\n",
-               formatSome(d.computeUnits, "compute unit", "compute units"), formatBytes(d.globalMemory),
-               formatBytes(d.largestBuffer));
-    if (!d.usable) fmt::print("   not usable: {}\n", d.reason);
+    tell(fmt::format("{}  {}  {}\n", d.index, d.kind, d.name));
+    tell(fmt::format("   {}\n", d.platform));
+    tell(fmt::format("   {}\n   driver {}\n", d.version, d.driver));
+    tell(fmt::format("   {}, {} of memory, {} at most in one buffer\n",
+                     formatSome(d.computeUnits, "compute unit", "compute units"), formatBytes(d.globalMemory),
+                     formatBytes(d.largestBuffer)));
+    if (!d.usable) tell(fmt::format("   not usable: {}\n", d.reason));
   }
-  for (const auto& problem : list.problems) fmt::print("-  {}\n", problem);
+  for (const auto& problem : list.problems) tell(fmt::format("-  {}\n", problem));
   if (list.devices.empty())
-    fmt::print(
+    tell(
         "No OpenCL device. One that runs on any CPU is PoCL: `apt install pocl-opencl-icd` on Debian and\n"
         "Ubuntu, `dnf install pocl` on Fedora. A GPU needs its vendor's OpenCL driver.\n");
 }

@@ -11,6 +11,7 @@
 #include "cli/info_report.h"
 #include "cli/option_kinds.h"
 #include "cli/options.h"
+#include "cli/speech.h"
 #include "render/renderer.h"
 #include "scene/camera.h"
 #include "wavefront/camera_to_device.h"
@@ -59,10 +60,10 @@ void runInfo(InfoOptions& o) {
       plan ? plan->stages : plannedStages({features, pruned.lights.size(), mostHits(features, o.settings)});
   const InfoReport report{scene, notices, features, pruned.pruning, stages, plan, problem};
   if (o.json)
-    fmt::print("{}\n",
-               infoJson(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    tell(fmt::format("{}\n",
+                     infoJson(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
   else
-    fmt::print("{}", infoText(report));
+    tell(infoText(report));
 }
 
 }  // namespace

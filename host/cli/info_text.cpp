@@ -9,6 +9,7 @@
 #include "cli/info_features.h"
 #include "cli/info_report.h"
 #include "cli/viewpoint.h"
+#include "report/printable.h"
 #include "report/text.h"
 #include "scene/camera.h"
 
@@ -44,16 +45,22 @@ class Places {
   glm::dvec3 origin_;
 };
 
+/// A name of the file's, on one line.
+std::string shownName(const std::string& name) {
+  constexpr std::size_t kLongest = 60;
+  return printableLine(name, kLongest);
+}
+
 std::string entry(std::size_t index, const std::string& name, std::size_t nameColumns,
                   const std::string& text) {
-  const std::string head = fmt::format("    {:>2}  {}  ", index, padded(name, nameColumns));
+  const std::string head = fmt::format("    {:>2}  {}  ", index, padded(shownName(name), nameColumns));
   return head + wrapped(text, 80 - std::min<std::size_t>(40, columnsOf(head)), columnsOf(head)) + "\n";
 }
 
 template <typename Items>
 std::size_t widestName(const Items& items) {
   std::size_t widest = 0;
-  for (const auto& item : items) widest = std::max(widest, columnsOf(item.name));
+  for (const auto& item : items) widest = std::max(widest, columnsOf(shownName(item.name)));
   return std::min<std::size_t>(widest, 24);
 }
 
@@ -174,8 +181,8 @@ std::string buffersText(const RenderPlan& plan) {
 }  // namespace
 
 std::string infoText(const InfoReport& r) {
-  std::string out =
-      r.scene.file + "\n\n" + contents(r.scene) + featuresText(r.features) + pruningText(r.pruning);
+  std::string out = printableLine(r.scene.file) + "\n\n" + contents(r.scene) + featuresText(r.features) +
+                    pruningText(r.pruning);
   out += "\nStages that will run\n  " + wrapped(fmt::format("{}", fmt::join(r.stages, ", ")), 78, 2) + "\n\n";
   if (r.plan) return out + buffersText(*r.plan);
   return out + "Buffers\n  " + wrapped("unknown: " + r.planProblem, 78, 2) + "\n";

@@ -14,6 +14,7 @@
 #include "cli/error_options.h"
 #include "cli/feature_names.h"
 #include "cli/option_kinds.h"
+#include "cli/speech.h"
 #include "gltf/loader.h"
 #include "report/text.h"
 #include "scene/camera.h"
@@ -43,6 +44,9 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
       "would be dark]");
   c.add_flag_callback(
       "--no-default-lights", [&o] { o.defaultLights = false; }, "or never");
+  c.add_flag(
+      "--confine", o.confined,
+      "refuse a file that reads buffers or images outside its own folder; otherwise a note says so [off]");
   c.add_flag("--default-background,!--no-default-background", o.defaultBackground,
              "and put the studio's surroundings there, for smooth surfaces to mirror [on]");
 }
@@ -169,6 +173,7 @@ Scene loadScene(const SceneOptions& options, Settings& settings, Notices& notice
     load.aspect = static_cast<double>(settings.width) / settings.height;
   if (!options.scene.empty()) load.sceneName = options.scene;
   load.defaultLights = options.defaultLights;
+  load.confined = options.confined;
   load.defaultBackground = options.defaultBackground && options.background.empty();
   Scene scene = loadGltf(options.file, load, notices);
   settleSize(options, scene, settings);
@@ -179,9 +184,9 @@ Scene loadScene(const SceneOptions& options, Settings& settings, Notices& notice
     settings.ambient = automaticAmbient(scene);
     notices.note(fmt::format("--ambient auto: {} W/(m² sr)", *settings.ambient));
   }
-  for (const auto& text : notices.warnings) fmt::print(stderr, "warning: {}\n", text);
+  for (const auto& text : notices.warnings) warn(text);
   if (!options.quiet)
-    for (const auto& text : notices.notes) fmt::print(stderr, "note: {}\n", text);
+    for (const auto& text : notices.notes) note(text);
   return scene;
 }
 

@@ -20,6 +20,7 @@ struct SceneOptions {
   std::string background;             ///< "R,G,B" or an equirectangular image; empty: as the file says
   std::optional<bool> defaultLights;  ///< see LoadOptions
   bool defaultBackground = true;
+  bool confined = false;  ///< see LoadOptions
   bool quiet = false;
   ViewpointOptions view;
   CLI::Option *width = nullptr, *height = nullptr;  ///< null where the command draws no picture

@@ -11,6 +11,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "cli/speech.h"
 #include "image/tone_map.h"
 #include "scene/input_error.h"
 #include "scene/material_predicates.h"
@@ -111,10 +112,9 @@ Look lookOf(const FloatImage& radiance, const Scene& scene, const Settings& sett
   } else if (isShown && !isUnlit) {
     look.stops = fittingExposure(radiance);
     if (look.stops != 0.0F && !quiet)
-      fmt::print(
-          stderr,
-          "note: exposed by {:+.1f} stops, since the picture would be too {}; --exposure 0 leaves it so\n",
-          look.stops, look.stops > 0.0F ? "dark" : "bright");
+      note(fmt::format(
+          "exposed by {:+.1f} stops, since the picture would be too {}; --exposure 0 leaves it so",
+          look.stops, look.stops > 0.0F ? "dark" : "bright"));
   }
   return look;
 }

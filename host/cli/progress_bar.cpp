@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/speech.h"
 #include "report/text.h"
 
 namespace whittle::cli {
@@ -26,14 +27,12 @@ ProgressBar::~ProgressBar() { clear(); }
 
 void ProgressBar::clear() {
   if (!shown_) return;
-  std::fputs("\r\033[K", stderr);
-  std::fflush(stderr);
+  drawError("\r\033[K");
   shown_ = false;
 }
 
 void ProgressBar::show(const std::string& line) {
-  fmt::print(stderr, "\r\033[K{}", line);
-  std::fflush(stderr);
+  drawError("\r\033[K" + line);
   shown_ = true;
 }
 

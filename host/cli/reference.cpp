@@ -11,7 +11,9 @@
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
+#include "cli/speech.h"
 #include "reference/reference.h"
+#include "report/printable.h"
 #include "report/stats.h"
 #include "report/text.h"
 
@@ -90,17 +92,17 @@ void runReference(ReferenceOptions& o) {
   bar.clear();
   const double elapsed = seconds();
   if (result.nonFinite > 0)
-    fmt::print(stderr, "warning: {} samples were not finite and count as black\n",
-               formatInteger(result.nonFinite));
+    warn(fmt::format("{} samples were not finite and count as black", formatInteger(result.nonFinite)));
   writeResults(o, scene, result, elapsed);
   if (o.scene.quiet || isStandardOutput(o.stats)) return;
   const auto& rays = result.rays;
-  fmt::print("{}×{} in double precision: {} rays in {}\n{} primary, {} impulse, {} shadow\n",
-             o.settings.width, o.settings.height, formatInteger(rays.total()), formatSeconds(elapsed),
-             formatInteger(rays.primary), formatInteger(rays.impulse), formatInteger(rays.shadow));
-  for (const auto& file : o.outputs) fmt::print("wrote {}\n", file.string());
-  for (const auto& aov : o.aovs) fmt::print("wrote {} ({})\n", aov.file.string(), aov.name);
-  if (!o.stats.empty()) fmt::print("wrote {}\n", o.stats.string());
+  tell(fmt::format("{}×{} in double precision: {} rays in {}\n{} primary, {} impulse, {} shadow\n",
+                   o.settings.width, o.settings.height, formatInteger(rays.total()), formatSeconds(elapsed),
+                   formatInteger(rays.primary), formatInteger(rays.impulse), formatInteger(rays.shadow)));
+  for (const auto& file : o.outputs) tell(fmt::format("wrote {}\n", printableLine(file.string())));
+  for (const auto& aov : o.aovs)
+    tell(fmt::format("wrote {} ({})\n", printableLine(aov.file.string()), aov.name));
+  if (!o.stats.empty()) tell(fmt::format("wrote {}\n", printableLine(o.stats.string())));
 }
 
 }  // namespace

@@ -17,7 +17,9 @@
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
+#include "cli/speech.h"
 #include "render/renderer.h"
+#include "report/printable.h"
 #include "report/profile_table.h"
 #include "report/text.h"
 
@@ -93,7 +95,7 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
   hooks.note = [&](const std::string& text) {
     if (o.scene.quiet) return;
     bar.clear();
-    fmt::print(stderr, "note: {}\n", text);
+    note(text);
   };
   try {
     return render(scene, o.settings, hooks);
@@ -160,13 +162,15 @@ void writeResults(const RenderOptions& o, const Scene& scene, RenderResult& resu
 
 void report(const RenderOptions& o, const Stats& stats) {
   const bool taken = isStandardOutput(o.stats) || isStandardOutput(o.trace);
-  if (o.profile) fmt::print(taken ? stderr : stdout, "{}", profileTable(stats));
+  if (o.profile) taken ? tellError(profileTable(stats)) : tell(profileTable(stats));
   if (o.scene.quiet || taken) return;
-  fmt::print("{}{}", o.profile ? "\n" : "", renderSummary(stats));
-  for (const auto& file : o.outputs) fmt::print("wrote {}\n", file.string());
-  for (const auto& aov : o.aovs) fmt::print("wrote {} ({})\n", aov.file.string(), aov.name);
-  if (!o.stats.empty()) fmt::print("wrote {}\n", o.stats.string());
-  if (!o.trace.empty()) fmt::print("wrote {} (open it in https://ui.perfetto.dev)\n", o.trace.string());
+  tell(fmt::format("{}{}", o.profile ? "\n" : "", renderSummary(stats)));
+  for (const auto& file : o.outputs) tell(fmt::format("wrote {}\n", printableLine(file.string())));
+  for (const auto& aov : o.aovs)
+    tell(fmt::format("wrote {} ({})\n", printableLine(aov.file.string()), aov.name));
+  if (!o.stats.empty()) tell(fmt::format("wrote {}\n", printableLine(o.stats.string())));
+  if (!o.trace.empty())
+    tell(fmt::format("wrote {} (open it in https://ui.perfetto.dev)\n", printableLine(o.trace.string())));
 }
 
 void runRender(RenderOptions& o) {
@@ -187,14 +191,13 @@ void runRender(RenderOptions& o) {
   result.stats.time.load = load;
   result.stats.phases.insert(result.stats.phases.begin(), {"load", steadySeconds(start), load});
   if (result.stats.nonFinite > 0)
-    fmt::print(stderr, "warning: {} samples were not finite and count as black\n",
-               formatInteger(result.stats.nonFinite));
+    warn(fmt::format("{} samples were not finite and count as black", formatInteger(result.stats.nonFinite)));
   if (result.stats.ended.cutOff > 0.0 && !std::isfinite(result.stats.biasBound))
-    fmt::print(stderr,
-               "warning: no bound on what --cutoff left out: a light lies on a surface that scatters it, a "
-               "mirror glows, or a factor of a material is outside its range\n");
+    warn(
+        "no bound on what --cutoff left out: a light lies on a surface that scatters it, a "
+        "mirror glows, or a factor of a material is outside its range");
   if (!o.scene.quiet)
-    for (const std::string& note : limitNotes(result.stats)) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& text : limitNotes(result.stats)) note(text);
   writeResults(o, scene, result, start, trace.get());
   report(o, result.stats);
 }

@@ -199,12 +199,43 @@ std::span<const std::byte> viewData(Document& document, int view) {
   return data.subspan(v.byteOffset, v.byteLength);
 }
 
-std::filesystem::path fileOf(const Document& document, std::string_view uri) {
+namespace {
+
+/// Whether `file` lies in `folder` or below, wherever links lead. What is not there lies where its name says.
+bool isInside(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  std::error_code error;
+  const auto base = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
+  if (error) return false;
+  const auto real = std::filesystem::weakly_canonical(file, error);
+  if (error) return false;
+  const auto [end, unused] = std::mismatch(base.begin(), base.end(), real.begin(), real.end());
+  return end == base.end();
+}
+
+}  // namespace
+
+std::filesystem::path fileOf(Document& document, std::string_view uri) {
   LocalFile file = resolveUri(document.folder, uri);
   if (file.hadBackslashes) {
     document.warn(fmt::format("the URI{} has backslashes; they are read as slashes", quotedName(uri)));
   }
+  if (!isInside(document.folder, file.path)) {
+    auto& outside = document.outside;
+    if (std::find(outside.begin(), outside.end(), file.path) == outside.end()) outside.push_back(file.path);
+    if (document.confined) document.fail(fmt::format("{} lies outside its folder", file.path.string()));
+  }
   return std::move(file.path);
+}
+
+void settleOutside(const Document& document) {
+  if (document.outside.empty()) return;
+  const std::string first = document.outside.front().string();
+  const std::string more =
+      document.outside.size() > 1 ? fmt::format(" and {} more", document.outside.size() - 1) : "";
+  if (document.confined)
+    document.fail(fmt::format("it asks for {}{} outside its folder, which --confine forbids", first, more));
+  document.notices->note(
+      fmt::format("the scene reads {}{}, outside its own folder; --confine refuses such files", first, more));
 }
 
 const Json& child(const Json& object, const char* key) {

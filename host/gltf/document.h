@@ -36,7 +36,9 @@ struct Document {
   tinygltf::Model model;  ///< everything else
   std::vector<Bytes> bufferBytes;  ///< filled by bufferData
   std::vector<bool> bufferRead;
-  Notices* notices = nullptr;  ///< never null once the file is opened
+  Notices* notices = nullptr;                  ///< never null once the file is opened
+  bool confined = false;                       ///< files outside `folder` are not read
+  std::vector<std::filesystem::path> outside;  ///< that were asked for, each once
 
   /// Throws InputError with one line, "NAME: what".
   [[noreturn]] void fail(std::string_view what) const;
@@ -53,8 +55,13 @@ void openDocument(Document& document, const std::filesystem::path& path, Notices
 /// The bytes of a buffer view, checked against its buffer. Throws InputError.
 std::span<const std::byte> viewData(Document& document, int view);
 
-/// The file that the URI of a buffer or an image means. Warns of names that only nearly fit.
-std::filesystem::path fileOf(const Document& document, std::string_view uri);
+/// The file that the URI of a buffer or an image means. Warns of names that only nearly fit, and remembers
+/// those outside the folder of the scene: links are followed. Throws InputError for them where it is
+/// confined.
+std::filesystem::path fileOf(Document& document, std::string_view uri);
+/// Says how many files outside the folder were read. Throws InputError where it is confined and one was asked
+/// for.
+void settleOutside(const Document& document);
 
 /// The object under `key`, or an empty object where there is none.
 const Json& child(const Json& object, const char* key);

@@ -151,9 +151,11 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, No
   Scene scene;
   scene.file = path.string();
   gltf::Document document;
+  document.confined = options.confined;
   try {
     gltf::openDocument(document, path, notices);
     gltf::load(document, options, scene, notices);
+    gltf::settleOutside(document);
   } catch (const gltf::Json::exception& e) {
     document.fail(e.what());  // a hole in the checks, but still one line instead of a crash
   } catch (const std::bad_alloc&) {

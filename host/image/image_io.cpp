@@ -60,7 +60,6 @@ std::string imageFormatOf(const fs::path& path) {
 /// All of the file, where it is one of Radiance's; what cannot be read is left to the codec, which says why.
 std::optional<std::vector<std::byte>> radianceBytes(const fs::path& path) {
   std::error_code error;
-  if (!fs::is_regular_file(path, error)) return std::nullopt;  // opening a pipe would wait for its other end
   std::ifstream file(path, std::ios::binary);
   std::vector<std::byte> bytes(2);
   const auto readTo = [&](std::size_t from) {
@@ -75,6 +74,15 @@ std::optional<std::vector<std::byte>> radianceBytes(const fs::path& path) {
   return bytes;
 }
 
+/// Opening a pipe waits for its other end, and a device may have no end. What is not there is left to the
+/// codec, which says so.
+void refuseStreams(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw InputError(fmt::format("{}: is not a regular file", path.string()));
+}
+
 }  // namespace
 
 void loadImageCodec() { codec(); }
@@ -83,9 +91,13 @@ Image decodeImage(std::span<const std::byte> bytes, const std::string& name) {
   return codec().decodeImage(bytes, name);
 }
 
-Image readImage(const fs::path& path) { return codec().readImage(path); }
+Image readImage(const fs::path& path) {
+  refuseStreams(path);
+  return codec().readImage(path);
+}
 
 FloatImage readFloatImage(const fs::path& path) {
+  refuseStreams(path);
   if (const auto bytes = radianceBytes(path)) return decodeRadiance(*bytes, path.string());
   return codec().readFloatImage(path);
 }

@@ -1,5 +1,6 @@
-// Writes a temporary file beside the target and renames it: rename() within a folder is atomic (POSIX.1).
-// The data reach the disk (fsync) before the name does, so that a crash leaves the old file or the new one.
+// Writes a nameless file beside the target, names it when it is whole, and renames it: rename() within a
+// folder is atomic (POSIX.1). The data reach the disk (fsync) before the name does, so that a crash leaves
+// the old file or the new one.
 #include "scene/whole_file.h"
 
 #include <fcntl.h>
@@ -34,23 +35,21 @@ fs::path followLink(const fs::path& path) {
   return error ? path : target;
 }
 
-/// A file of its own that goes away again unless it was renamed.
+/// A file of its own that goes away again unless it became the target. It has no name while it is written
+/// (O_TMPFILE), so that nothing stays behind whatever ends the process; where the file system knows no such
+/// files it has one from the beginning.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target) {
-    // The name does not contain the target's: that one may already be as long as the file system allows.
-    for (int attempt = 0;; ++attempt) {
-      name_ = folderOf(target) / fmt::format(".whittle-{}-{}.part", ::getpid(), attempt);
-      file_ = ::open(name_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-      if (file_ >= 0) return;
-      if (errno != EEXIST) fail(target, errno);
-    }
+    file_ = ::open(folderOf(target).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (file_ >= 0) return;
+    takeName([&] { return file_ = ::open(name_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666); });
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
     if (file_ >= 0) ::close(file_);
-    if (!renamed_) ::unlink(name_.c_str());
+    if (!name_.empty() && !renamed_) ::unlink(name_.c_str());
   }
 
   void write(std::span<const std::byte> bytes) {
@@ -65,6 +64,10 @@ class TemporaryFile {
   void becomeTarget() {
     // EINVAL, ENOTSUP: a file system that cannot flush is no reason to lose the picture.
     if (::fsync(file_) != 0 && errno != EINVAL && errno != ENOTSUP) fail(target_, errno);
+    if (name_.empty()) {
+      const std::string open = fmt::format("/proc/self/fd/{}", file_);
+      takeName([&] { return ::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, name_.c_str(), AT_SYMLINK_FOLLOW); });
+    }
     const int closed = ::close(file_);
     file_ = -1;
     if (closed != 0) fail(target_, errno);
@@ -73,6 +76,19 @@ class TemporaryFile {
   }
 
  private:
+  /// `make` makes a file called name_ and returns a number below 0 where it cannot. The name does not contain
+  /// the target's: that one may already be as long as the file system allows.
+  template <typename Make>
+  void takeName(const Make& make) {
+    for (int attempt = 0;; ++attempt) {
+      name_ = folderOf(target_) / fmt::format(".whittle-{}-{}.part", ::getpid(), attempt);
+      if (make() >= 0) return;
+      if (errno == EEXIST) continue;
+      name_.clear();
+      fail(target_, errno);
+    }
+  }
+
   fs::path target_;
   fs::path name_;
   int file_ = -1;

@@ -2,11 +2,13 @@
 // wrong usage or unusable input.
 #include <unistd.h>
 
+#include <csignal>
 #include <exception>
 #include <new>
 #include <stdexcept>
 
 #include "cli/application.h"
+#include "cli/build_failure.h"
 #include "cli/speech.h"
 #include "scene/input_error.h"
 
@@ -28,11 +30,23 @@ namespace {
   ::_exit(1);
 }
 
+#ifdef NDEBUG
+/// A library that gives itself up, again for lack of memory or of threads; it has said its reason.
+extern "C" void whittleOnAbort(int) {
+  static constexpr char kText[] = "whittle: a library ended the run: out of memory or of threads?\n";
+  [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
+  ::_exit(1);
+}
+#endif
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::set_new_handler(endForLackOfMemory);
   std::set_terminate(endForLackOfThreads);
+#ifdef NDEBUG
+  std::signal(SIGABRT, whittleOnAbort);
+#endif
   whittle::cli::settleStreams();
   const auto fail = [](const char* text, int status) {
     whittle::cli::complain(text);
@@ -44,6 +58,10 @@ int main(int argc, char** argv) {
     return fail(e.what(), 2);
   } catch (const std::invalid_argument& e) {
     return fail(e.what(), 2);
+  } catch (const whittle::cli::BuildFailure& e) {
+    fail(e.what(), 1);
+    whittle::cli::tellError(e.log);
+    return 1;
   } catch (const std::bad_alloc&) {
     return fail("out of memory; a smaller picture, --wavefront or scene needs less", 1);
   } catch (const std::exception& e) {

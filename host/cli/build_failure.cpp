@@ -16,7 +16,7 @@ namespace {
 std::string indented(const std::string& log) {
   std::istringstream lines(log);
   std::string out;
-  for (std::string line; std::getline(lines, line);) out += line.empty() ? "" : "\n    " + line;
+  for (std::string line; std::getline(lines, line);) out += line.empty() ? "" : "    " + line + "\n";
   return out;
 }
 
@@ -35,7 +35,8 @@ std::string logElsewhere(const std::string& log) {
 }  // namespace
 
 void explainBuildFailure(const BuildError& e, const std::filesystem::path& kernelFolder) {
-  throw std::runtime_error(e.what() + (kernelFolder.empty() ? logElsewhere(e.log()) : indented(e.log())));
+  if (kernelFolder.empty()) throw BuildFailure(e.what() + logElsewhere(e.log()), "");
+  throw BuildFailure(e.what(), indented(e.log()));
 }
 
 }  // namespace whittle::cli

@@ -2,7 +2,6 @@
 // wrong usage or unusable input.
 #include <unistd.h>
 
-#include <csignal>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -30,23 +29,11 @@ namespace {
   ::_exit(1);
 }
 
-#ifdef NDEBUG
-/// A library that gives itself up, again for lack of memory or of threads; it has said its reason.
-extern "C" void whittleOnAbort(int) {
-  static constexpr char kText[] = "whittle: a library ended the run: out of memory or of threads?\n";
-  [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
-  ::_exit(1);
-}
-#endif
-
 }  // namespace
 
 int main(int argc, char** argv) {
   std::set_new_handler(endForLackOfMemory);
   std::set_terminate(endForLackOfThreads);
-#ifdef NDEBUG
-  std::signal(SIGABRT, whittleOnAbort);
-#endif
   whittle::cli::settleStreams();
   const auto fail = [](const char* text, int status) {
     whittle::cli::complain(text);

@@ -44,7 +44,10 @@ def render(whittle, scene, width, height, folder):
                            str(height), "--rays-per-pixel", "4"], capture_output=True, text=True)
     if done.returncode != 0:
         return None, (done.stderr.strip().split("\n") or [""])[-1]
-    return oiio.ImageBuf(str(picture)).get_pixels(oiio.UINT8)[..., :3], ""
+    image = oiio.ImageInput.open(str(picture))  # an ImageBuf may show what a cache has of the file's last content
+    codes = image.read_image(oiio.UINT8)[..., :3]
+    image.close()
+    return codes, ""
 
 
 def shares(codes):

@@ -13,11 +13,12 @@ namespace whittle {
 
 namespace {
 
-/// Some triangle answers to light and gives off none: without a light it would be black.
+/// Some triangle answers to light and, at least in places, gives off none: without a light it would be black
+/// there.
 bool somethingIsDark(const Scene& scene) {
   return std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& t) {
     const Material& m = scene.materials[t.material];
-    return isLit(m) && !emits(m);
+    return isLit(m) && (!emits(m) || m.emissionTexture.used());
   });
 }
 

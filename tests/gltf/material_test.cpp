@@ -158,6 +158,12 @@ TEST(GltfMaterial, TextureTransform) {
   EXPECT_EQ(scene.uv1.size(), 3U);
 }
 
+/// A texture glows in places: the rest would be black without the default lights.
+TEST(GltfMaterial, WhatGlowsByATextureIsLitAsWell) {
+  GltfBuilder b = textured({{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}});
+  EXPECT_EQ(b.load().lights.size(), 3U);
+}
+
 TEST(GltfMaterial, TexturesThatCannotBeReadLeaveTheFactor) {
   const Json material{
       {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"baseColorFactor", {0.5, 1, 1, 1}}}}};

@@ -27,18 +27,27 @@ void writeError(std::string_view text) {
 
 void sayLine(const char* kind, const std::string& text) { writeError(kind + printableLine(text) + "\n"); }
 
+/// Standard output did not take something, for the reason in `error`.
+[[noreturn]] void failOutput(int error) {
+  if (error == EPIPE) {
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  throw std::runtime_error(fmt::format("standard output cannot be written: {}", std::strerror(error)));
+}
+
 void put(const std::string& text) {
-  [[maybe_unused]] const std::size_t shownByFinish = std::fwrite(text.data(), 1, text.size(), stdout);
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) failOutput(errno);
 }
 
 }  // namespace
 
 void settleStreams() {
-  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd)
-    if (::fcntl(fd, F_GETFD) == -1 && errno == EBADF)
-        // The lowest free descriptor: this one, since those below are open by now.
-        [[maybe_unused]]
-      const int opened = ::open("/dev/null", fd == STDIN_FILENO ? O_RDONLY : O_WRONLY);
+  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd) {
+    if (::fcntl(fd, F_GETFD) != -1 || errno != EBADF) continue;
+    // The lowest free descriptor: this one, since those below are open by now.
+    [[maybe_unused]] const int opened = ::open("/dev/null", fd == STDIN_FILENO ? O_RDONLY : O_WRONLY);
+  }
   std::signal(SIGPIPE, SIG_IGN);
 }
 
@@ -51,13 +60,7 @@ void tell(const std::string& lines) { put(printableLines(lines)); }
 void tellJson(const std::string& json) { put(json); }
 
 void finishOutput() {
-  const bool failed = std::ferror(stdout) != 0;
-  if (std::fflush(stdout) == 0 && !failed) return;
-  if (errno == EPIPE) {
-    std::signal(SIGPIPE, SIG_DFL);
-    std::raise(SIGPIPE);
-  }
-  throw std::runtime_error(fmt::format("standard output cannot be written: {}", std::strerror(errno)));
+  if (std::fflush(stdout) != 0) failOutput(errno);
 }
 
 }  // namespace whittle::cli

@@ -22,8 +22,8 @@ void tellError(const std::string& lines);
 /// As it is, control characters and all: the progress bar's own text.
 void drawError(const std::string& text);
 
-/// Several lines on standard output, ends of lines included. Whether they arrived is known after
-/// finishOutput.
+/// Several lines on standard output, ends of lines included. Throws as finishOutput, which knows whether all
+/// arrived.
 void tell(const std::string& lines);
 /// JSON has no control characters, and may have long lines.
 void tellJson(const std::string& json);

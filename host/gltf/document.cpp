@@ -222,7 +222,7 @@ std::filesystem::path fileOf(Document& document, std::string_view uri) {
   if (!isInside(document.folder, file.path)) {
     auto& outside = document.outside;
     if (std::find(outside.begin(), outside.end(), file.path) == outside.end()) outside.push_back(file.path);
-    if (document.confined) document.fail(fmt::format("{} lies outside its folder", file.path.string()));
+    if (document.confined) settleOutside(document);
   }
   return std::move(file.path);
 }

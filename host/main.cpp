@@ -5,10 +5,13 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include "cli/application.h"
 #include "cli/build_failure.h"
+#include "cli/guard.h"
 #include "cli/speech.h"
+#include "programs/compiler_process.h"
 #include "scene/input_error.h"
 
 namespace {
@@ -29,12 +32,9 @@ namespace {
   ::_exit(1);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int work(int argc, char** argv) {
   std::set_new_handler(endForLackOfMemory);
   std::set_terminate(endForLackOfThreads);
-  whittle::cli::settleStreams();
   const auto fail = [](const char* text, int status) {
     whittle::cli::complain(text);
     return status;
@@ -51,7 +51,19 @@ int main(int argc, char** argv) {
     return 1;
   } catch (const std::bad_alloc&) {
     return fail("out of memory; a smaller picture, --wavefront or scene needs less", 1);
+  } catch (const std::system_error& e) {
+    if (e.code() != std::errc::resource_unavailable_try_again) return fail(e.what(), 1);
+    return fail("no more threads: out of memory, or of what this user may run (ulimit -u)", 1);
   } catch (const std::exception& e) {
     return fail(e.what(), 1);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  whittle::cli::settleStreams();
+  // Its parent is guarded, and waits for it.
+  if (argc > 1 && argv[1] == std::string(whittle::kCompilerCommand)) return work(argc, argv);
+  return whittle::cli::runGuarded([&] { return work(argc, argv); });
 }

@@ -203,7 +203,7 @@ class Bench {
 }  // namespace
 
 BenchResult runBench(const Scene& scene, const BenchOptions& options) {
-  limitCpuThreads(options.threads);
+  prepareCpuThreads(options.threads, 0);
   std::optional<tbb::global_control> limit;
   if (options.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));

@@ -1,6 +1,8 @@
 // Device listing and choice. The device is asked for what it can do; nothing is guessed from its name.
 #include "cl/device.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -129,8 +131,21 @@ DeviceInfo selectDevice(const DeviceList& list, const std::string& selector) {
   return *found;
 }
 
-void limitCpuThreads(int threads) {
+void prepareCpuThreads(int threads, int workGroup) {
   if (threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
+  // PoCL keeps the private variables of all items of a group on the stack of the thread that runs it, and
+  // says 1024 bytes an item (CL_KERNEL_PRIVATE_MEM_SIZE) whatever they are. Ours have 2.4 kB; most of this is
+  // only addresses. Compilers like the 8 MB that threads mostly have.
+  constexpr std::size_t kItem = 16 << 10, kBesides = 1 << 20, kUsual = 8 << 20;
+  const std::size_t wanted =
+      std::max(kUsual, kBesides + kItem * static_cast<std::size_t>(std::max(workGroup, 0)));
+  pthread_attr_t attributes;
+  std::size_t now = 0;
+  if (pthread_getattr_default_np(&attributes) != 0) return;
+  if (pthread_attr_getstacksize(&attributes, &now) == 0 && now < wanted &&
+      pthread_attr_setstacksize(&attributes, wanted) == 0)
+    pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
 }
 
 }  // namespace whittle

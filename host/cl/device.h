@@ -39,7 +39,9 @@ DeviceList listDevices();
 /// usable. Throws InputError-like std::invalid_argument with one line if there is none.
 DeviceInfo selectDevice(const DeviceList& list, const std::string& selector);
 
-/// Limits PoCL to `threads` CPU threads; works only before the first OpenCL call of the process. 0: no limit.
-void limitCpuThreads(int threads);
+/// Before the first OpenCL call of the process: limits PoCL to `threads` CPU threads (0: no limit), and gives
+/// every thread that is started from now on a stack on which work-groups of `workGroup` items (0: of the
+/// default size) find room.
+void prepareCpuThreads(int threads, int workGroup);
 
 }  // namespace whittle

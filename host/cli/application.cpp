@@ -2,7 +2,6 @@
 #include "cli/application.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -10,7 +9,6 @@
 
 #include "cli/commands.h"
 #include "cli/help.h"
-#include "cli/signals.h"
 #include "cli/speech.h"
 #include "programs/compiler_process.h"
 #include "report/text.h"
@@ -100,7 +98,6 @@ int runApplication(int argc, const char* const* argv) {
     compilerProcessMain({argv + 2, argv + argc});
     return 0;
   }
-  installSignals(isatty(STDERR_FILENO));
   CLI::App app{"Whittle: a wavefront Whitted ray tracer for glTF scenes on any OpenCL device"};
   int status = 0;
   addCommands(app, status);

@@ -9,6 +9,7 @@
 
 #include "bench/embree_baseline.h"
 #include "cl/device.h"
+#include "cl/kernel_cache.h"
 #include "cli/build_failure.h"
 #include "cli/commands.h"
 #include "cli/option_kinds.h"
@@ -104,6 +105,7 @@ void noteShortRows(const BenchResult& r) {
 
 void runBenchCommand(BenchCommand& o) {
   Notices notices;
+  warnIfAny(settleKernelCache());
   if (!o.kernelFolder.empty()) o.bench.kernelFolder = o.kernelFolder;
   Settings settings;
   const Scene scene = loadScene(o.scene, settings, notices);

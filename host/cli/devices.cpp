@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cl/device.h"
+#include "cl/kernel_cache.h"
 #include "cl/program.h"
 #include "cli/commands.h"
 #include "cli/speech.h"
@@ -59,6 +60,7 @@ void addDevices(CLI::App& app, int& status) {
   c->add_flag("--json", *json, "as JSON");
   c->footer("Example: whittle devices; whittle render scene.glb --device 0");
   c->callback([json, &status] {
+    warnIfAny(settleKernelCache());
     const DeviceList list = listDevices();
     *json ? printJson(list) : printTable(list);
     status = 0;

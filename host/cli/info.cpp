@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cl/error.h"
+#include "cl/kernel_cache.h"
 #include "cli/aovs.h"
 #include "cli/commands.h"
 #include "cli/error_options.h"
@@ -42,7 +43,8 @@ void runInfo(InfoOptions& o) {
   notices.notes = uselessOptions(o.settings);
   const Scene scene = loadScene(o.scene, o.settings, notices);
   findCamera(scene, o.settings.camera);
-  limitCpuThreads(o.settings.threads);
+  warnIfAny(settleKernelCache());
+  prepareCpuThreads(o.settings.threads, o.settings.workGroup);
   std::optional<RenderPlan> plan;
   std::string problem;
   try {

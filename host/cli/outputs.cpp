@@ -73,6 +73,7 @@ void OutputCheck::picture(const std::string& option, const fs::path& file) {
   if (file.empty()) throw InputError(fmt::format("{}: its value is empty; it names a file", option));
   try {
     checkWritable(file);
+    tryFolder(file);
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: {}", option, e.what()));
   }
@@ -92,7 +93,7 @@ void OutputCheck::text(const std::string& option, const fs::path& file) {
     return;
   }
   try {
-    checkFolderWritable(file);
+    if (!isStream(file)) tryFolder(file);
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: {}", option, e.what()));
   }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/guard.h"
 #include "cli/speech.h"
 #include "report/text.h"
 
@@ -23,7 +24,10 @@ std::size_t terminalColumns() {
 
 ProgressBar::ProgressBar(bool quiet) : on_(!quiet && isatty(STDERR_FILENO)) {}
 
-ProgressBar::~ProgressBar() { clear(); }
+ProgressBar::~ProgressBar() {
+  clear();
+  nowDoing("");
+}
 
 void ProgressBar::clear() {
   if (!shown_) return;
@@ -37,6 +41,7 @@ void ProgressBar::show(const std::string& line) {
 }
 
 void ProgressBar::phase(const std::string& text) {
+  nowDoing(text);
   if (on_) show(columnsOf(text) + 2 < terminalColumns() ? text + " …" : "…");
 }
 

@@ -6,14 +6,14 @@
 
 #include "cli/aovs.h"
 #include "cli/commands.h"
+#include "cli/guard.h"
 #include "cli/option_kinds.h"
 #include "cli/options.h"
+#include "cli/output_writer.h"
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
-#include "cli/signals.h"
 #include "cli/speech.h"
 #include "reference/reference.h"
-#include "report/printable.h"
 #include "report/stats.h"
 #include "report/text.h"
 
@@ -63,22 +63,30 @@ std::string statsText(const ReferenceOptions& o, const Scene& scene, const Refer
 }
 
 void writeResults(const ReferenceOptions& o, const Scene& scene, const ReferenceResult& result,
-                  double seconds) {
-  const HoldSignals whole;
+                  double seconds, OutputWriter& files) {
   const ImageMetadata metadata{{"whittle:settings", settingsToJson(o.settings).dump()},
                                {"whittle:scene", o.scene.file.filename().string()},
                                {"whittle:reference", "double precision"}};
   const Look look = lookOf(result.radiance, scene, o.settings, o.outputs, o.scene.quiet);
-  for (const auto& file : o.outputs) writePicture(file, result.radiance, look, metadata);
+  nowDoing("writing pictures");
+  for (const auto& file : o.outputs)
+    files.add(file, "", [&](const auto& to) { writePicture(to, result.radiance, look, metadata); });
   if (!o.aovs.empty()) {
     const std::map<std::string, FloatImage> aovs{{"depth", result.depth}, {"primitive", result.primitive}};
-    for (const auto& aov : o.aovs) writeAov(aov, result.radiance, aovs, metadata);
+    for (const auto& aov : o.aovs)
+      files.add(aov.file, fmt::format(" ({})", aov.name), [&](const auto& to) {
+        writeAov({aov.name, to}, result.radiance, aovs, metadata);
+      });
   }
-  if (!o.stats.empty()) writeTextFile(o.stats, statsText(o, scene, result, seconds));
+  nowDoing("");
+  if (!o.stats.empty())
+    files.add(o.stats, "", [&](const auto& to) { writeTextFile(to, statsText(o, scene, result, seconds)); });
 }
 
-void runReference(ReferenceOptions& o) {
+/// Returns the exit status.
+int runReference(ReferenceOptions& o) {
   checkOutputs(o);
+  loadImageCodec();  // what fails, fails before the work
   Notices notices;
   const Scene scene = loadScene(o.scene, o.settings, notices);
   ProgressBar bar(o.scene.quiet);
@@ -93,16 +101,16 @@ void runReference(ReferenceOptions& o) {
   const double elapsed = seconds();
   if (result.nonFinite > 0)
     warn(fmt::format("{} samples were not finite and count as black", formatInteger(result.nonFinite)));
-  writeResults(o, scene, result, elapsed);
-  if (o.scene.quiet || isStandardOutput(o.stats)) return;
+  OutputWriter files;
+  writeResults(o, scene, result, elapsed, files);
+  const int status = files.isComplete() ? 0 : 1;
+  if (o.scene.quiet || isStandardOutput(o.stats)) return status;
   const auto& rays = result.rays;
   tell(fmt::format("{}×{} in double precision: {} rays in {}\n{} primary, {} impulse, {} shadow\n",
                    o.settings.width, o.settings.height, formatInteger(rays.total()), formatSeconds(elapsed),
                    formatInteger(rays.primary), formatInteger(rays.impulse), formatInteger(rays.shadow)));
-  for (const auto& file : o.outputs) tell(fmt::format("wrote {}\n", printableLine(file.string())));
-  for (const auto& aov : o.aovs)
-    tell(fmt::format("wrote {} ({})\n", printableLine(aov.file.string()), aov.name));
-  if (!o.stats.empty()) tell(fmt::format("wrote {}\n", printableLine(o.stats.string())));
+  tell(files.summary());
+  return status;
 }
 
 }  // namespace
@@ -124,10 +132,7 @@ void addReference(CLI::App& app, int& status) {
   c->add_flag("--quiet", o->scene.quiet, "no progress, notes or summary");
   addPictureOptions(*c, o->settings, o->scene);
   c->footer("Example: whittle reference scene.glb -o right.exr --width 320 --height 180");
-  c->callback([o, &status] {
-    runReference(*o);
-    status = 0;
-  });
+  c->callback([o, &status] { status = runReference(*o); });
 }
 
 }  // namespace whittle::cli

@@ -8,18 +8,19 @@
 #include <memory>
 
 #include "cl/device.h"
+#include "cl/kernel_cache.h"
 #include "cli/aovs.h"
 #include "cli/build_failure.h"
 #include "cli/commands.h"
 #include "cli/error_options.h"
+#include "cli/guard.h"
 #include "cli/option_kinds.h"
 #include "cli/options.h"
+#include "cli/output_writer.h"
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
-#include "cli/signals.h"
 #include "cli/speech.h"
 #include "render/renderer.h"
-#include "report/printable.h"
 #include "report/profile_table.h"
 #include "report/text.h"
 
@@ -83,10 +84,11 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
   hooks.timeStages = o.profile || trace || !o.stats.empty();
   hooks.trace = trace;
   hooks.compiler = "/proc/self/exe";
-  std::future<void> codec;  // loaded meanwhile; a problem shows when a picture is written
+  std::future<void> codec;  // loaded while kernels are compiled
   hooks.phase = [&](const std::string& text) {
     bar.phase(text);
-    if (!o.outputs.empty() && !codec.valid()) codec = std::async(std::launch::async, loadImageCodec);
+    if (!o.outputs.empty() && text == kFirstPhase) codec = std::async(std::launch::async, loadImageCodec);
+    if (codec.valid() && text == kLastPhase) codec.get();
   };
   hooks.progress = [&](const RenderProgress& p) {
     bar.update(p.samplesDone / p.samplesTotal, p.seconds,
@@ -142,45 +144,48 @@ std::string statsText(const RenderOptions& o, const Stats& stats) {
 }
 
 void writeResults(const RenderOptions& o, const Scene& scene, RenderResult& result, Clock::time_point start,
-                  Trace* trace) {
-  const HoldSignals whole;
+                  Trace* trace, OutputWriter& files) {
   const auto writing = Clock::now();
   const Look look = lookOf(result.radiance, scene, o.settings, o.outputs, o.scene.quiet);
   result.stats.settings.exposure = look.stops;
   const ImageMetadata metadata = pictureMetadata(o, result.stats);
-  for (const auto& file : o.outputs) writePicture(file, result.radiance, look, metadata);
-  for (const auto& aov : o.aovs) writeAov(aov, result.radiance, result.aovs, metadata);
+  nowDoing("writing pictures");
+  for (const auto& file : o.outputs)
+    files.add(file, "", [&](const auto& to) { writePicture(to, result.radiance, look, metadata); });
+  for (const auto& aov : o.aovs)
+    files.add(aov.file, fmt::format(" ({})", aov.name), [&](const auto& to) {
+      writeAov({aov.name, to}, result.radiance, result.aovs, metadata);
+    });
+  nowDoing("");
   result.stats.time.write = since(writing);
   result.stats.phases.push_back({"write", steadySeconds(writing), result.stats.time.write});
   if (trace) {
     trace->phase("write", writing);
-    writeTextFile(o.trace, trace->toText());
+    files.add(o.trace, " (open it in https://ui.perfetto.dev)",
+              [&](const auto& to) { writeTextFile(to, trace->toText()); });
   }
   result.stats.time.total = since(start);
-  if (!o.stats.empty()) writeTextFile(o.stats, statsText(o, result.stats));
+  if (!o.stats.empty())
+    files.add(o.stats, "", [&](const auto& to) { writeTextFile(to, statsText(o, result.stats)); });
 }
 
-void report(const RenderOptions& o, const Stats& stats) {
+void report(const RenderOptions& o, const Stats& stats, const OutputWriter& files) {
   const bool taken = isStandardOutput(o.stats) || isStandardOutput(o.trace);
   if (o.profile) taken ? tellError(profileTable(stats)) : tell(profileTable(stats));
   if (o.scene.quiet || taken) return;
-  tell(fmt::format("{}{}", o.profile ? "\n" : "", renderSummary(stats)));
-  for (const auto& file : o.outputs) tell(fmt::format("wrote {}\n", printableLine(file.string())));
-  for (const auto& aov : o.aovs)
-    tell(fmt::format("wrote {} ({})\n", printableLine(aov.file.string()), aov.name));
-  if (!o.stats.empty()) tell(fmt::format("wrote {}\n", printableLine(o.stats.string())));
-  if (!o.trace.empty())
-    tell(fmt::format("wrote {} (open it in https://ui.perfetto.dev)\n", printableLine(o.trace.string())));
+  tell(fmt::format("{}{}{}", o.profile ? "\n" : "", renderSummary(stats), files.summary()));
 }
 
-void runRender(RenderOptions& o) {
+/// Returns the exit status.
+int runRender(RenderOptions& o) {
   const auto start = Clock::now();
   checkOutputs(o);
   o.settings.aovs = !o.aovs.empty();
   const FloatImage reference = readReference(o);
   std::unique_ptr<Trace> trace;
   if (!o.trace.empty()) trace = std::make_unique<Trace>();
-  limitCpuThreads(o.settings.threads);
+  warnIfAny(settleKernelCache());
+  prepareCpuThreads(o.settings.threads, o.settings.workGroup);
 
   Notices notices;
   notices.notes = uselessOptions(o.settings);
@@ -198,8 +203,10 @@ void runRender(RenderOptions& o) {
         "mirror glows, or a factor of a material is outside its range");
   if (!o.scene.quiet)
     for (const std::string& text : limitNotes(result.stats)) note(text);
-  writeResults(o, scene, result, start, trace.get());
-  report(o, result.stats);
+  OutputWriter files;
+  writeResults(o, scene, result, start, trace.get(), files);
+  report(o, result.stats, files);
+  return files.isComplete() ? 0 : 1;
 }
 
 }  // namespace
@@ -234,8 +241,7 @@ void addRender(CLI::App& app, int& status) {
   c->footer("Example: whittle render scene.glb -o a.png -o a.exr --stats stats.json");
   c->callback([o, c, &status] {
     settleRaysPerPixel(*c, o->settings);
-    runRender(*o);
-    status = 0;
+    status = runRender(*o);
   });
 }
 

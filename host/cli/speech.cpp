@@ -52,6 +52,9 @@ void settleStreams() {
 }
 
 void warn(const std::string& text) { sayLine("warning: ", text); }
+void warnIfAny(const std::string& text) {
+  if (!text.empty()) warn(text);
+}
 void note(const std::string& text) { sayLine("note: ", text); }
 void complain(const std::string& text) { sayLine("whittle: ", text); }
 void tellError(const std::string& lines) { writeError(printableLines(lines)); }

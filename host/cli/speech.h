@@ -16,6 +16,8 @@ void settleStreams();
 void warn(const std::string& text);      ///< "warning: …"
 void note(const std::string& text);      ///< "note: …"
 void complain(const std::string& text);  ///< "whittle: …"
+/// warn, unless it is empty.
+void warnIfAny(const std::string& text);
 
 /// Several lines on standard error, ends of lines included.
 void tellError(const std::string& lines);

@@ -3,10 +3,12 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <stdexcept>
 
 #include "cl/device.h"
@@ -59,8 +61,10 @@ std::function<void()> startCompilerProcess(const std::filesystem::path& binary, 
 }
 
 void compilerProcessMain(const std::vector<std::string>& arguments) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody else would want what it makes
   const CompilerJob job = compilerJob(arguments);
   const auto programs = kernelPrograms(SceneFeatures::ofBits(job.features), job.stages, job.folder);
+  prepareCpuThreads(0, job.target.workGroup);
   Compute compute(selectDevice(listDevices(), std::to_string(job.device)));
   for (std::size_t i = 1; i < programs.size(); ++i) compileProgram(compute, programs[i], job.target);
 }

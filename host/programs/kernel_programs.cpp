@@ -11,6 +11,7 @@
 #include <future>
 #include <string_view>
 
+#include "cl/compile_turn.h"
 #include "cl/kernel_source.h"
 #include "programs/referenced_features.h"
 #include "wavefront/kernel_arguments.h"
@@ -56,6 +57,12 @@ bool sharesWhatItCompiled(const DeviceInfo& device) {
          !(cache && std::string(cache) == "0");
 }
 
+/// All that decides on the code that comes out.
+std::string keyOf(const KernelProgram& program, const CompileTarget& target) {
+  return fmt::format("{}\n{}\n{}\n{}", target.workGroup, buildOptions(program, target),
+                     fmt::join(program.kernels, " "), program.source);
+}
+
 }  // namespace
 
 std::vector<KernelProgram> kernelPrograms(const SceneFeatures& features,
@@ -85,9 +92,12 @@ std::string buildOptions(const KernelProgram& program, const CompileTarget& targ
 }
 
 cl::Program compileProgram(Compute& compute, const KernelProgram& program, const CompileTarget& target) {
+  std::optional<CompileTurn> turn;
+  if (sharesWhatItCompiled(compute.device())) turn.emplace(compute.device().name + keyOf(program, target));
   cl::Program built = compute.build(program.source, buildOptions(program, target),
                                     fmt::format("{} ({})", program.name, fmt::join(program.kernels, ", ")));
   for (const auto& name : program.kernels) launchIdle(compute, built, name, target.workGroup);
+  if (turn) turn->done();
   return built;
 }
 
@@ -115,8 +125,7 @@ std::vector<cl::Program> compileOnce(OpenDevice& device, const std::vector<Kerne
   std::vector<std::string> keys, newKeys;
   std::vector<KernelProgram> newPrograms;
   for (const KernelProgram& p : programs) {
-    keys.push_back(fmt::format("{}\n{}\n{}\n{}", target.workGroup, buildOptions(p, target),
-                               fmt::join(p.kernels, " "), p.source));
+    keys.push_back(keyOf(p, target));
     if (device.programs.contains(keys.back())) continue;
     newKeys.push_back(keys.back());
     newPrograms.push_back(p);

@@ -32,7 +32,7 @@ void checkSettings(const Settings& s) {
 }
 
 Compute openDevice(const Settings& settings, Compute::Memory memory, Compute::Launches launches) {
-  limitCpuThreads(settings.threads);
+  prepareCpuThreads(settings.threads, settings.workGroup);
   return Compute(selectDevice(listDevices(), settings.device), memory, launches);
 }
 

@@ -126,7 +126,7 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
   checkSettings(settings);
   findCamera(scene, settings.camera);  // an unknown one is said before a device is opened
 
-  say(hooks, "opening the device");
+  say(hooks, kFirstPhase);
   std::optional<OpenDevice> own;
   const auto opening = Clock::now();
   if (!hooks.device)
@@ -154,7 +154,7 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
   const auto [programs, compileSeconds] = compiled.get();
   log.add("compile kernels", compiling, compileSeconds);
 
-  say(hooks, "rendering");
+  say(hooks, kLastPhase);
   const auto rendering = Clock::now();
   StageRunner stages(compute, programs, decisions.workGroup,
                      {decisions.features.has(Feature::PACKETS), decisions.compactChunk},

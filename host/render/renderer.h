@@ -32,6 +32,11 @@ struct RenderResult {
   Stats stats;  ///< time.load, time.write and time.total are the caller's to fill
 };
 
+/// The phases that others wait for: nothing is open yet; nothing that can be found out before the work is
+/// left to be found out.
+inline constexpr const char* kFirstPhase = "opening the device";
+inline constexpr const char* kLastPhase = "rendering";
+
 struct RenderHooks {
   std::function<void(const RenderProgress&)> progress;  ///< now and then, may be empty
   std::function<void(const std::string&)> phase;        ///< "compiling kernels", … may be empty

@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
-#include <stdexcept>
+#include <chrono>
 #include <system_error>
 
 #include "scene/input_error.h"
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, int error) {
-  throw std::runtime_error(
+  throw UnwritableFile(
       fmt::format("{}: cannot be written: {}", path.string(), std::generic_category().message(error)));
 }
 
@@ -33,6 +34,23 @@ fs::path followLink(const fs::path& path) {
   if (!fs::is_symlink(path, error)) return path;
   const fs::path target = fs::weakly_canonical(path, error);
   return error ? path : target;
+}
+
+constexpr const char *kPartBegin = ".whittle-", *kPartEnd = ".part";
+
+/// Parts that killed processes left. Perhaps of another machine's, so by their age: they are written in one
+/// go.
+void sweepParts(const fs::path& folder) {
+  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  std::error_code error;
+  fs::directory_iterator file(folder, error);
+  for (; !error && file != fs::directory_iterator(); file.increment(error)) {
+    const std::string name = file->path().filename().string();
+    if (name.rfind(kPartBegin, 0) != 0 || file->path().extension() != kPartEnd) continue;
+    std::error_code gone;
+    const auto written = file->last_write_time(gone);
+    if (!gone && written < old) fs::remove(file->path(), gone);
+  }
 }
 
 /// A file of its own that goes away again unless it became the target. It has no name while it is written
@@ -64,13 +82,17 @@ class TemporaryFile {
   void becomeTarget() {
     // EINVAL, ENOTSUP: a file system that cannot flush is no reason to lose the picture.
     if (::fsync(file_) != 0 && errno != EINVAL && errno != ENOTSUP) fail(target_, errno);
-    if (name_.empty()) {
-      const std::string open = fmt::format("/proc/self/fd/{}", file_);
-      takeName([&] { return ::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, name_.c_str(), AT_SYMLINK_FOLLOW); });
-    }
+    const std::string open = fmt::format("/proc/self/fd/{}", file_);
+    const auto link = [&](const fs::path& name) {
+      return ::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
+    };
+    const bool isNew = name_.empty() && link(target_) == 0;
+    // What is there already can only be replaced by a file that has a name.
+    if (!isNew && name_.empty()) takeName([&] { return link(name_); });
     const int closed = ::close(file_);
     file_ = -1;
     if (closed != 0) fail(target_, errno);
+    if (isNew) return;
     if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, errno);
     renamed_ = true;
   }
@@ -81,7 +103,7 @@ class TemporaryFile {
   template <typename Make>
   void takeName(const Make& make) {
     for (int attempt = 0;; ++attempt) {
-      name_ = folderOf(target_) / fmt::format(".whittle-{}-{}.part", ::getpid(), attempt);
+      name_ = folderOf(target_) / fmt::format("{}{}-{}{}", kPartBegin, ::getpid(), attempt, kPartEnd);
       if (make() >= 0) return;
       if (errno == EEXIST) continue;
       name_.clear();
@@ -121,6 +143,13 @@ void checkFolderWritable(const fs::path& path) {
     throw InputError(fmt::format("{}: the folder {} is not writable: {}", path.string(), folder.string(),
                                  std::generic_category().message(errno)));
   }
+}
+
+void tryFolder(const fs::path& path) {
+  checkFolderWritable(path);
+  static constexpr std::array<std::byte, 4096> kLittle{};
+  TemporaryFile(followLink(path)).write(kLittle);
+  sweepParts(folderOf(followLink(path)));
 }
 
 }  // namespace whittle

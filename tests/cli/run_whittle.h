@@ -27,6 +27,7 @@ class Process {
  public:
   explicit Process(const std::vector<std::string>& args, const RunOptions& options = {});
   void signal(int number) const;
+  pid_t id() const { return pid_; }
   /// Reads both streams to their ends and waits.
   Outcome finish();
 

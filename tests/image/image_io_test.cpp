@@ -278,5 +278,24 @@ TEST(WholeFile, replacesFollowsLinksAndHonoursTheUmask) {
   EXPECT_EQ(folder.fileCount(), 2);
 }
 
+TEST(WholeFile, whatKilledWritersLeftIsSweptOnceItIsOld) {
+  const TemporaryFolder folder;
+  const auto hours = [](int n) {
+    return std::filesystem::file_time_type::clock::now() - std::chrono::hours(n);
+  };
+  for (const auto& [name, age] : {std::pair{".whittle-1-0.part", 2},
+                                  {".whittle-2-0.part", 0},
+                                  {"mine.part", 2},
+                                  {".whittle-3-0.exr", 2}}) {
+    std::ofstream(folder / name) << "a part";
+    std::filesystem::last_write_time(folder / name, hours(age));
+  }
+  tryFolder(folder / "a.exr");
+  EXPECT_FALSE(std::filesystem::exists(folder / ".whittle-1-0.part"));
+  EXPECT_TRUE(std::filesystem::exists(folder / ".whittle-2-0.part"))
+      << "perhaps another process writes it now";
+  EXPECT_EQ(folder.fileCount(), 3) << "nothing of others, and nothing new";
+}
+
 }  // namespace
 }  // namespace whittle

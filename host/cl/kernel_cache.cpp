@@ -1,0 +1,123 @@
+#include "cl/kernel_cache.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+namespace whittle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kVariable = "POCL_CACHE_DIR";
+
+/// PoCL refuses longer ones in ways of its own; below its folder come some 150 characters more.
+constexpr std::size_t kLongestFolder = 512;
+
+/// One program with its kernels, and the compiler's files between.
+constexpr std::uint64_t kRoom = 16 << 20;
+
+fs::path variable(const char* name) {
+  const char* const value = std::getenv(name);
+  return value && *value ? fs::path(value) : fs::path();
+}
+
+/// Empty where nothing says one.
+fs::path wantedFolder() {
+  if (const fs::path folder = variable(kVariable); !folder.empty()) return folder;
+  if (const fs::path folder = variable("XDG_CACHE_HOME"); !folder.empty()) return folder / "pocl" / "kcache";
+  if (const fs::path folder = variable("HOME"); !folder.empty()) return folder / ".cache" / "pocl" / "kcache";
+  return {};
+}
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+/// Why compiled kernels cannot be kept in `folder`, which is made where it is missing; empty where they can.
+std::string problemOf(const fs::path& folder) {
+  if (folder.native().size() > kLongestFolder) return "its name is too long for PoCL";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return error.message();
+  std::string probe = (folder / "whittle-XXXXXX").string();
+  const int file = ::mkstemp(probe.data());
+  if (file < 0) return reason(errno);
+  static constexpr std::array<char, 4096> kLittle{};
+  const bool isWritten =
+      ::write(file, kLittle.data(), kLittle.size()) == static_cast<ssize_t>(kLittle.size());
+  const int problem = errno;
+  ::close(file);
+  ::unlink(probe.c_str());
+  if (!isWritten) return reason(problem);
+  struct statvfs room {};
+  if (::statvfs(folder.c_str(), &room) == 0 && room.f_bavail * room.f_frsize < kRoom) return reason(ENOSPC);
+  return {};
+}
+
+/// A folder among the temporary files that nobody else can write to: kernels found there are run. One of a
+/// fixed name, so that the next run finds them; another where that name is taken by somebody.
+fs::path privateFolder() {
+  std::error_code error;
+  const fs::path temporary = fs::temp_directory_path(error);
+  if (error) return {};
+  const fs::path folder = temporary / fmt::format("whittle-kernels-{}", ::geteuid());
+  struct stat status {};
+  ::mkdir(folder.c_str(), 0700);
+  const bool isOurs = ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
+                      status.st_uid == ::geteuid() && (status.st_mode & 077) == 0;
+  if (isOurs) return folder;
+  std::string other = (temporary / "whittle-kernels-XXXXXX").string();
+  return ::mkdtemp(other.data()) ? fs::path(other) : fs::path();
+}
+
+/// Files that PoCL makes while it compiles, under the names that it gives them, are gone within minutes.
+void sweep(const fs::path& folder) {
+  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  std::error_code error;
+  fs::directory_iterator file(folder, error);
+  for (; !error && file != fs::directory_iterator(); file.increment(error)) {
+    const std::string name = file->path().filename().string();
+    if (name.rfind("tempfile", 0) != 0 && name.rfind("whittle-", 0) != 0) continue;
+    std::error_code gone;
+    const auto written = file->last_write_time(gone);
+    if (!gone && file->is_regular_file(gone) && written < old && name != kTurnsFile)
+      fs::remove(file->path(), gone);
+  }
+}
+
+void settle(const fs::path& folder) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(folder, error);
+  ::setenv(kVariable, (error ? folder : whole).c_str(), 1);
+  sweep(folder);
+}
+
+}  // namespace
+
+std::string settleKernelCache() {
+  const fs::path wanted = wantedFolder();
+  const std::string problem = wanted.empty() ? "HOME is not set" : problemOf(wanted);
+  if (problem.empty()) {
+    settle(wanted);
+    return {};
+  }
+  const fs::path refuge = privateFolder();
+  const std::string lost =
+      wanted.empty() ? fmt::format("no folder for compiled kernels: {}", problem)
+                     : fmt::format("compiled kernels cannot be kept in {}: {}", wanted.string(), problem);
+  if (refuge.empty() || !problemOf(refuge).empty())
+    return fmt::format("{}; set {} to a folder that can be written to", lost, kVariable);
+  settle(refuge);
+  return fmt::format("{}; they go to {}; set {} to another folder", lost, refuge.string(), kVariable);
+}
+
+}  // namespace whittle

@@ -1,6 +1,7 @@
 # Imports go down only. Holds every #include under host/ against the whittle_library(…) lines of CMakeLists.txt: a room
 # includes the rooms its own line names, names none that it doesn't include, and the rooms form no circle. Of kernels/
 # the host sees shared/ alone; there a stage includes lib, lib includes lib and shared, shared nothing but itself.
+# And nobody but host/cli/speech.cpp speaks.
 # Reads ROOT, the repository's folder.
 cmake_minimum_required(VERSION 3.25)
 set(wrong "")
@@ -74,6 +75,13 @@ foreach(room IN LISTS rooms_found)
         list(APPEND wrong "${source} includes ${name}: whittle_library(${room} …) doesn't name whittle_${from}")
       endif()
     endforeach()
+    # What people read goes through one place, which makes it fit for a terminal. A picture is no text.
+    if(NOT source MATCHES "^host/cli/(speech|outputs)[.]cpp$")
+      file(STRINGS ${ROOT}/${source} spoken REGEX "std::(cout|cerr|clog)|fmt::print|[^a-zA-Z_](f?printf|f?puts)[(]|perror|write[(]STD|[(, ]std(out|err)[,)]")
+      if(spoken)
+        list(APPEND wrong "${source} speaks by itself, not through cli/speech.h: ${spoken}")
+      endif()
+    endif()
   endforeach()
   foreach(used IN LISTS uses_${room})
     if(NOT used IN_LIST included)

@@ -9,6 +9,7 @@
 
 #include "cl/device.h"
 #include "cl/kernel_cache.h"
+#include "cl/program.h"
 #include "cli/aovs.h"
 #include "cli/build_failure.h"
 #include "cli/commands.h"
@@ -20,6 +21,7 @@
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/speech.h"
+#include "cli/starvation.h"
 #include "render/renderer.h"
 #include "report/profile_table.h"
 #include "report/text.h"
@@ -106,8 +108,13 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
   } catch (const std::invalid_argument& e) {
     // With nothing asked for, a machine without a device is no wrong usage.
     if (!o.settings.device.empty()) throw;
+    const auto limit = addressLimit();
     throw std::runtime_error(
-        fmt::format("{}; a CPU device needs only pocl-opencl-icd or your system's PoCL package", e.what()));
+        limit ? fmt::format(
+                    "{}; PoCL needs 1.1 GB of addresses, more with many threads, and ulimit -v leaves {}",
+                    e.what(), formatBytes(*limit))
+              : fmt::format("{}; a CPU device needs only pocl-opencl-icd or your system's PoCL package",
+                            e.what()));
   }
 }
 

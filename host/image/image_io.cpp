@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "image/exr_header.h"
 #include "image/image_codec.h"
 #include "image/radiance_file.h"
 #include "scene/input_error.h"
@@ -83,6 +84,22 @@ void refuseStreams(const fs::path& path) {
     throw InputError(fmt::format("{}: is not a regular file", path.string()));
 }
 
+/// A header with what people put there; one that is longer is read by the codec alone.
+constexpr std::size_t kLongHeader = 1 << 20;
+
+void refuseDamagedExr(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::byte> head(4);
+  const auto read = [&](std::size_t from) {
+    file.read(reinterpret_cast<char*>(head.data() + from), static_cast<std::streamsize>(head.size() - from));
+    return from + static_cast<std::size_t>(file.gcount());
+  };
+  if (read(0) < head.size() || !isExrFile(head)) return;
+  head.resize(kLongHeader);
+  head.resize(read(4));
+  checkSampleTypes(head, path.string());
+}
+
 }  // namespace
 
 void loadImageCodec() { codec(); }
@@ -93,12 +110,14 @@ Image decodeImage(std::span<const std::byte> bytes, const std::string& name) {
 
 Image readImage(const fs::path& path) {
   refuseStreams(path);
+  refuseDamagedExr(path);
   return codec().readImage(path);
 }
 
 FloatImage readFloatImage(const fs::path& path) {
   refuseStreams(path);
   if (const auto bytes = radianceBytes(path)) return decodeRadiance(*bytes, path.string());
+  refuseDamagedExr(path);
   return codec().readFloatImage(path);
 }
 

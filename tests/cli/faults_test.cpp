@@ -152,6 +152,64 @@ TEST(Faults, NamesOfAFileReachTheTerminalAsEscapes) {
   EXPECT_EQ(std::count(name.err.begin(), name.err.end(), '\n'), 1) << name.err;
 }
 
+/// The strings of a file, every one: names of all kinds, extensions, generator, URIs, key names.
+TEST(Faults, NoStringOfAFileReachesTheTerminalRaw) {
+  // Clears a screen, sets a title, turns the text, begins a line of its own.
+  const std::string evil = R"(\u001b[2J\u001b]0;title\u0007\u202e\nFORGED: \u009b)";
+  const std::string text =
+      R"({"asset":{"version":"2.0","generator":"@","copyright":"@"},"scene":0,"scenes":[{"name":"@","nodes":[0,1,2]}],
+    "extensionsUsed":["@","KHR_lights_punctual"],
+    "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","name":"@"},{"type":"@","name":"@"}]}},
+    "nodes":[{"name":"@","mesh":0},{"name":"@","camera":0},{"name":"@","extensions":{"KHR_lights_punctual":{"light":0}}}],
+    "cameras":[{"type":"perspective","name":"@","perspective":{"yfov":1,"znear":1,"zfar":2}}],
+    "meshes":[{"name":"@","primitives":[{"attributes":{"POSITION":0,"@":0},"material":0}]}],
+    "materials":[{"name":"@","alphaMode":"@","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+    "textures":[{"source":0,"name":"@"}],"images":[{"uri":"@.png","name":"@","mimeType":"@"}],
+    "samplers":[{"name":"@"}],"animations":[{"name":"@","channels":[],"samplers":[]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0],"name":"@"}],
+    "bufferViews":[{"buffer":0,"byteLength":36,"name":"@"}],"buffers":[{"byteLength":36,"uri":"b.bin","name":"@"}]})";
+  const Folder folder;
+  const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  std::ofstream(folder / "b.bin", std::ios::binary)
+      .write(reinterpret_cast<const char*>(points), sizeof(points));
+  const auto expectClean = [](const std::string& said, const std::string& what) {
+    for (const char* raw : {"\x1b", "\x07", "\u202e", "\u009b", "\nFORGED"})
+      EXPECT_EQ(said.find(raw), std::string::npos) << what << " says\n" << said;
+  };
+  // Each string alone among harmless ones, then all at once, so that every message is met, refusals too.
+  const auto strings = static_cast<std::size_t>(std::count(text.begin(), text.end(), '@'));
+  int refused = 0, read = 0;
+  for (std::size_t one = 0; one <= strings; ++one) {
+    std::ostringstream file;
+    std::size_t index = 0;
+    for (const char c : text) {
+      if (c != '@') {
+        file << c;
+        continue;
+      }
+      if (one == strings || index == one)
+        file << evil;
+      else
+        file << 'x' << index;
+      ++index;
+    }
+    std::ofstream(folder / "a.gltf") << file.str();
+    std::vector<std::vector<std::string>> commands{{"info", "a.gltf"}};
+    if (one == strings)
+      for (const char* more : {"--json", "--camera=none", "--confine"})
+        commands.push_back({"info", "a.gltf", more});
+    for (const auto& args : commands) {
+      const Outcome run = runWhittle(args, {folder.path(), {}});
+      EXPECT_TRUE(run.status == 0 || run.status == 2) << run.err;
+      (run.status == 0 ? read : refused) += 1;
+      expectClean(run.out, "string " + std::to_string(one));
+      expectClean(run.err, "string " + std::to_string(one));
+    }
+  }
+  EXPECT_GT(read, 0);
+  EXPECT_GT(refused, 0);
+}
+
 /// However little there is: an answer in time, one line, and no picture unless it is whole. On this side of
 /// the limits the program does not even start; beyond them it renders.
 TEST(Faults, ShortMemoryEndsInOneLine) {

@@ -2,9 +2,11 @@
 // random: the loader ends in a scene or in one line. Most telling in a build with sanitizers.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <random>
 
 #include "gltf/builder.h"
+#include "support/mutation.h"
 
 namespace whittle {
 namespace {
@@ -173,6 +175,41 @@ TEST(GltfFuzz, BytesTurnedOver) {
     refused += loadsOrSays(folder, copy) ? 0 : 1;
   }
   EXPECT_GT(refused, 300U);
+}
+
+/// Files that need no other: our own scenes, and small ones of others where those are there.
+std::vector<std::string> wholeFiles() {
+  constexpr std::uintmax_t kSmall = 200'000;
+  std::vector<std::string> files;
+  std::vector<std::filesystem::path> paths;
+  for (const char* folder : {WHITTLE_SCENES, WHITTLE_SHARED}) {
+    if (!std::filesystem::is_directory(folder)) continue;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+      if (entry.is_regular_file() && entry.file_size() < kSmall &&
+          (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf"))
+        paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  files.reserve(paths.size());
+  for (const auto& path : paths) files.push_back(test::fileText(path));
+  return files;
+}
+
+TEST(GltfFuzz, FilesMutated) {
+  const std::vector<std::string> files = wholeFiles();
+  ASSERT_GE(files.size(), 12U);
+  const test::TemporaryFolder folder;
+  std::mt19937 random(2);
+  std::size_t loaded = 0, refused = 0;
+  for (int i = 0; i < test::mutations(); ++i) {
+    const std::string file = test::mutated(files[random() % files.size()], random);
+    const auto begin = std::chrono::steady_clock::now();
+    ++(loadsOrSays(folder, file) ? loaded : refused);
+    // A hang is what this is about: a sanitizer takes its time.
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20)) << "mutation " << i;
+  }
+  EXPECT_GT(loaded, 0U);
+  EXPECT_GT(refused, 0U);
 }
 
 }  // namespace

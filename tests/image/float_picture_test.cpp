@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <fstream>
+#include <random>
 
 #include "image/image_io.h"
 #include "image/temporary_folder.h"
 #include "scene/input_error.h"
+#include "support/mutation.h"
 
 namespace whittle {
 namespace {
@@ -225,6 +227,42 @@ TEST(Png, OursSayThatTheyAreSrgb) {
   std::ifstream in(folder / "a.png", std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(in)), {});
   EXPECT_NE(bytes.find("sRGB"), std::string::npos);
+}
+
+/// Pictures with something wrong in them are read, or refused in one line.
+TEST(Damaged, PicturesAreReadOrRefusedInOneLine) {
+  const TemporaryFolder folder;
+  std::mt19937 random(3);
+  FloatImage image{24, 16, 3, {}};
+  for (int i = 0; i < 24 * 16 * 3; ++i) image.pixels.push_back(static_cast<float>(random() % 1000));
+  writeExr(folder / "a.exr", image, {{"key", "value"}});
+  writeRgb8(folder / "a.png", 24, 16, std::vector<std::uint8_t>(24 * 16 * 3, 77), {});
+  const Written parts({partOf({"R", "G", "B"}, "one"), partOf({"Z", "left.R", "left.G", "left.B"}, "two")});
+  std::string radiance = "#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 9\n";
+  for (int row = 0; row < 4; ++row) {
+    radiance += std::string{2, 2, 0, 9};
+    for (int component = 0; component < 4; ++component)
+      radiance += std::string{static_cast<char>(128 + 5), 100, 4, 1, 2, 3, 4};
+  }
+  const std::vector<std::string> files{test::fileText(folder / "a.exr"), test::fileText(folder / "a.png"),
+                                       test::fileText(parts.folder / "a.exr"), radiance};
+  int read = 0, refused = 0;
+  for (int i = 0; i < test::mutations(); ++i) {
+    std::ofstream(folder / "b.exr", std::ios::binary)
+        << test::mutated(files[random() % files.size()], random);
+    try {
+      const FloatImage got = readFloatImage(folder / "b.exr");
+      EXPECT_EQ(got.pixels.size(), static_cast<std::size_t>(got.width) * got.height * got.channels);
+      ++read;
+    } catch (const InputError& e) {
+      const std::string text = e.what();
+      EXPECT_EQ(text.rfind((folder / "b.exr").string() + ": ", 0), 0U) << text;
+      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+      ++refused;
+    }
+  }
+  EXPECT_GT(read, 0);
+  EXPECT_GT(refused, 0);
 }
 
 }  // namespace

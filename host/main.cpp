@@ -22,6 +22,8 @@ namespace {
 [[noreturn]] void endForLackOfMemory() {
   static constexpr char kText[] =
       "whittle: out of memory; a smaller picture, --wavefront or scene needs less\n";
+  // Several threads may run out of it at once.
+  while (!whittle::cli::haveExplained()) ::pause();
   [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
   ::_exit(1);
 }

@@ -31,6 +31,8 @@ class Ledger {
  public:
   void doing(std::string_view phase) { phase_.replace(phase); }
   void wrote(std::string_view file) { written_.append(written_.empty() ? file : ", " + std::string(file)); }
+  bool explain() { return !explained_.exchange(true); }
+  bool isExplained() const { return explained_; }
   std::string phase() const { return phase_.text(); }
   std::string written() const { return written_.text(); }
 
@@ -57,6 +59,7 @@ class Ledger {
   };
   Text<200> phase_;
   Text<3000> written_;
+  std::atomic<bool> explained_ = false;
 };
 
 /// Set before the worker starts, and only ever read after: the one exception to "no globals", since every
@@ -166,7 +169,12 @@ class Guard {
   }
 
   int explain(int status) const {
-    if (WIFEXITED(status)) return WEXITSTATUS(status);
+    if (WIFEXITED(status)) {
+      // Compilers leave by exit() where they cannot write.
+      if (WEXITSTATUS(status) != 0 && !ledger->isExplained())
+        sayEnd(fmt::format("a library or the OpenCL driver left the program{}", whileDoing()));
+      return WEXITSTATUS(status);
+    }
     const int signal = WTERMSIG(status);
     // The reader of standard output has gone, or a terminal signals both processes.
     if (signal == SIGPIPE || signal == SIGQUIT) dieOf(signal);
@@ -210,6 +218,8 @@ int runGuarded(const std::function<int()>& program) {
 void nowDoing(const std::string& phase) {
   if (ledger) ledger->doing(phase);
 }
+
+bool haveExplained() { return !ledger || ledger->explain(); }
 
 void haveWritten(const std::string& file) {
   if (ledger) ledger->wrote(file);

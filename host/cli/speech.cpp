@@ -10,6 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "cli/guard.h"
 #include "report/printable.h"
 
 namespace whittle::cli {
@@ -56,8 +57,14 @@ void warnIfAny(const std::string& text) {
   if (!text.empty()) warn(text);
 }
 void note(const std::string& text) { sayLine("note: ", text); }
-void complain(const std::string& text) { sayLine("whittle: ", text); }
-void tellError(const std::string& lines) { writeError(printableLines(lines)); }
+void complain(const std::string& text) {
+  haveExplained();
+  sayLine("whittle: ", text);
+}
+void tellError(const std::string& lines) {
+  haveExplained();
+  writeError(printableLines(lines));
+}
 void drawError(const std::string& text) { writeError(text); }
 void tell(const std::string& lines) { put(printableLines(lines)); }
 void tellJson(const std::string& json) { put(json); }

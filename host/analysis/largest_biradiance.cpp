@@ -38,10 +38,21 @@ double toTriangle(const glm::dvec3& p, const Corners& c) {
   return above ? std::min(edges, std::abs(glm::dot(p - c[0], n)) / glm::length(n)) : edges;
 }
 
-/// Never more than toTriangle, and cheap.
-double toBox(const glm::dvec3& p, const Corners& c) {
-  const glm::dvec3 lo = glm::min(c[0], glm::min(c[1], c[2])), hi = glm::max(c[0], glm::max(c[1], c[2]));
-  return glm::length(glm::max(glm::max(lo - p, p - hi), glm::dvec3(0)));
+struct Box {
+  glm::dvec3 low{kInfinity}, high{-kInfinity};
+
+  void add(const Corners& corners) {
+    for (const glm::dvec3& c : corners) low = glm::min(low, c), high = glm::max(high, c);
+  }
+};
+
+Corners cornersOf(const Scene& scene, const Triangle& t) {
+  return {scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]};
+}
+
+/// Never more than toTriangle of any triangle in it, and cheap.
+double toBox(const glm::dvec3& p, const Box& box) {
+  return glm::length(glm::max(glm::max(box.low - p, p - box.high), glm::dvec3(0)));
 }
 
 double roundingOf(const Corners& c) {
@@ -49,19 +60,43 @@ double roundingOf(const Corners& c) {
   return kHitRounding * std::max(size.x, std::max(size.y, size.z));
 }
 
+/// Neighbours of one material in the scene's order, so that most triangles are passed by many at a time.
+struct Run {
+  std::size_t begin = 0, end = 0;
+  std::uint32_t material = 0;
+  Box box;
+  double slack = 0;  ///< the largest roundingOf
+};
+
+std::vector<Run> runsOf(const Scene& scene) {
+  constexpr std::size_t kMost = 64;
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    const Triangle& t = scene.triangles[i];
+    if (runs.empty() || runs.back().material != t.material || i - runs.back().begin == kMost)
+      runs.push_back({i, i, t.material, {}, 0});
+    Run& run = runs.back();
+    const Corners corners = cornersOf(scene, t);
+    run.end = i + 1;
+    run.box.add(corners);
+    run.slack = std::max(run.slack, roundingOf(corners));
+  }
+  return runs;
+}
+
 /// For each material, how near to `p` a hit on it can be, metres; infinite where it has no triangle.
-std::vector<double> nearestHits(const Scene& scene, const glm::dvec3& p) {
+std::vector<double> nearestHits(const Scene& scene, const std::vector<Run>& runs, const glm::dvec3& p) {
   const std::vector<double> none(scene.materials.size(), kInfinity);
   tbb::combinable<std::vector<double>> ofThread([&] { return none; });
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scene.triangles.size(), 4096), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, runs.size(), 256), [&](const auto& range) {
     std::vector<double>& nearest = ofThread.local();
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const Triangle& t = scene.triangles[i];
-      const Corners corners{scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]};
-      double& best = nearest[t.material];
-      const double slack = roundingOf(corners);
-      if (toBox(p, corners) - slack < best)
-        best = std::min(best, std::max(0.0, toTriangle(p, corners) - slack));
+    for (std::size_t r = range.begin(); r < range.end(); ++r) {
+      double& best = nearest[runs[r].material];
+      if (toBox(p, runs[r].box) - runs[r].slack >= best) continue;
+      for (std::size_t i = runs[r].begin; i < runs[r].end; ++i) {
+        const Corners corners = cornersOf(scene, scene.triangles[i]);
+        best = std::min(best, std::max(0.0, toTriangle(p, corners) - roundingOf(corners)));
+      }
     }
   });
   std::vector<double> nearest = none;
@@ -75,13 +110,14 @@ std::vector<double> nearestHits(const Scene& scene, const glm::dvec3& p) {
 
 std::vector<glm::dvec3> largestBiradiance(const Scene& scene) {
   std::vector<glm::dvec3> sums(scene.materials.size(), glm::dvec3(0));
+  const std::vector<Run> runs = runsOf(scene);
   for (const Light& light : scene.lights) {
     const glm::dvec3 intensity = glm::abs(glm::dvec3(light.intensity));
     if (!typeOf(light.kind).isPlaced) {
       for (auto& sum : sums) sum += intensity;
       continue;
     }
-    const std::vector<double> nearest = nearestHits(scene, light.position);
+    const std::vector<double> nearest = nearestHits(scene, runs, light.position);
     for (std::size_t i = 0; i < sums.size(); ++i) {
       if (nearest[i] > static_cast<double>(light.range)) continue;
       for (int c = 0; c < 3; ++c)

@@ -196,5 +196,36 @@ TEST(LightReach, NoPointOfAMaterialIsNearer) {
   }
 }
 
+/// Many triangles are passed at a time; one by one, each alone in its scene, they say the same to the bit.
+TEST(LargestBiradiance, IsThatOfTheNearestTriangleAlone) {
+  Rng random(7);
+  Scene scene;
+  scene.materials.resize(3);
+  const TriangleMesh soup = randomSoup(1000, 0.05F, 8);
+  scene.positions = soup.positions;
+  for (const glm::uvec3& t : soup.triangles) {
+    // Runs of every length, materials that come back.
+    const auto material = static_cast<std::uint32_t>(
+        random.unit() < 0.05F ? random.bits() % 3 : scene.triangles.size() / 300 % 3);
+    scene.triangles.push_back({t.x, t.y, t.z, material});
+  }
+  for (int i = 0; i < 20; ++i) {
+    Light light;
+    light.kind = LightKind::Point;
+    light.intensity = glm::vec3(1, 2, 3);
+    light.position = random.inBox(1.5F);
+    light.range = std::numeric_limits<float>::infinity();
+    scene.lights = {light};
+    const auto all = largestBiradiance(scene);
+    std::vector<glm::dvec3> alone(3, glm::dvec3(0));
+    for (const Triangle& t : scene.triangles) {
+      Scene one = scene;
+      one.triangles = {t};
+      alone[t.material] = glm::max(alone[t.material], largestBiradiance(one)[t.material]);
+    }
+    for (std::size_t m = 0; m < 3; ++m) EXPECT_EQ(all[m], alone[m]) << "light " << i << ", material " << m;
+  }
+}
+
 }  // namespace
 }  // namespace whittle::test

@@ -210,6 +210,24 @@ TEST(Faults, NoStringOfAFileReachesTheTerminalRaw) {
   EXPECT_GT(refused, 0);
 }
 
+/// The library that writes pictures lies beside the program, and here it does not.
+TEST(Faults, AnImageLibraryThatIsMissingIsFoundOutFirst) {
+  const Folder folder;
+  std::filesystem::copy_file(WHITTLE_BINARY, folder / "whittle");
+  for (const char* command : {"render", "reference"}) {
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome run = runShell(std::string("./whittle ") + command + " " + scene() +
+                                     " --width 64 --height 48 --rays-per-pixel 1000000 -o a.exr --quiet",
+                                 {folder.path(), {}});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(run.err.rfind("whittle: libwhittle_codec.so", 0), 0U) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60))
+        << "kernels perhaps, no samples";
+  }
+  EXPECT_EQ(folder.names(), Names{"whittle"});
+}
+
 /// However little there is: an answer in time, one line, and no picture unless it is whole. On this side of
 /// the limits the program does not even start; beyond them it renders.
 TEST(Faults, ShortMemoryEndsInOneLine) {

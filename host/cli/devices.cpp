@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cl/device.h"
-#include "cl/program.h"
 #include "cli/commands.h"
 #include "cli/speech.h"
 #include "report/text.h"
+#include "scene/byte_counts.h"
 
 namespace whittle::cli {
 namespace {

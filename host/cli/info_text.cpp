@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cl/program.h"
 #include "cli/info_features.h"
 #include "cli/info_report.h"
 #include "cli/viewpoint.h"
 #include "report/printable.h"
 #include "report/text.h"
+#include "scene/byte_counts.h"
 #include "scene/camera.h"
 
 namespace whittle::cli {

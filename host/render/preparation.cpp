@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cl/device.h"
+#include "scene/byte_counts.h"
 #include "scene/camera.h"
 #include "scene/input_error.h"
 #include "wavefront/camera_to_device.h"

@@ -70,9 +70,9 @@ PictureBuffers allocatePicture(Compute& compute, const Settings& settings, const
         compute.allocate("passBlocks", SampleCounts(pixels).blocks() * sizeof(std::uint32_t));
   }
   if (memory == Compute::Memory::SizesOnly) return picture;
-  picture.orderTable =
-      makePixelOrder(static_cast<std::uint32_t>(settings.width), static_cast<std::uint32_t>(settings.height));
-  compute.write(picture.order, picture.orderTable.data());
+  compute.write(picture.order, makePixelOrder(static_cast<std::uint32_t>(settings.width),
+                                              static_cast<std::uint32_t>(settings.height))
+                                   .data());
   compute.fillZero(picture.film);
   return picture;
 }

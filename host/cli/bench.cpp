@@ -106,7 +106,8 @@ void runBenchCommand(BenchCommand& o) {
   Notices notices;
   if (!o.kernelFolder.empty()) o.bench.kernelFolder = o.kernelFolder;
   Settings settings;
-  const Scene scene = loadScene(o.scene, settings, notices);
+  MemoryBudget budget = budgetOf(o.scene);
+  const Scene scene = loadScene(o.scene, {}, settings, budget, notices);
   BenchResult result;
   {
     ProgressBar bar(o.scene.quiet);

@@ -12,6 +12,7 @@
 #include "cli/option_kinds.h"
 #include "cli/options.h"
 #include "cli/speech.h"
+#include "render/peak_memory.h"
 #include "render/renderer.h"
 #include "scene/camera.h"
 #include "wavefront/camera_to_device.h"
@@ -40,7 +41,8 @@ void checkAovs(InfoOptions& o) {
 void runInfo(InfoOptions& o) {
   Notices notices;
   notices.notes = uselessOptions(o.settings);
-  const Scene scene = loadScene(o.scene, o.settings, notices);
+  MemoryBudget budget = budgetOf(o.scene);
+  const Scene scene = loadScene(o.scene, {{kTriangleBytes, 0}}, o.settings, budget, notices);
   findCamera(scene, o.settings.camera);
   limitCpuThreads(o.settings.threads);
   std::optional<RenderPlan> plan;

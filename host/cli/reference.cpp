@@ -80,7 +80,9 @@ void writeResults(const ReferenceOptions& o, const Scene& scene, const Reference
 void runReference(ReferenceOptions& o) {
   checkOutputs(o);
   Notices notices;
-  const Scene scene = loadScene(o.scene, o.settings, notices);
+  MemoryBudget budget = budgetOf(o.scene);
+  const Scene scene = loadScene(o.scene, {{kReferenceTriangleBytes, 0}, 0, referencePictureBytes}, o.settings,
+                                budget, notices);
   ProgressBar bar(o.scene.quiet);
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {

@@ -18,6 +18,7 @@
 #include "cli/progress_bar.h"
 #include "cli/signals.h"
 #include "cli/speech.h"
+#include "render/peak_memory.h"
 #include "render/renderer.h"
 #include "report/printable.h"
 #include "report/profile_table.h"
@@ -184,7 +185,9 @@ void runRender(RenderOptions& o) {
 
   Notices notices;
   notices.notes = uselessOptions(o.settings);
-  const Scene scene = loadScene(o.scene, o.settings, notices);
+  MemoryBudget budget = budgetOf(o.scene);
+  const Scene scene = loadScene(o.scene, {{kTriangleBytes, kTexelBytes}, kRuntimeBytes, pictureBytes},
+                                o.settings, budget, notices);
   if (trace) trace->phase("load", start);
   const double load = since(start);
   RenderResult result = renderWithProgress(scene, o, reference, trace.get());

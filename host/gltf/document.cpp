@@ -213,6 +213,10 @@ void Document::promise(std::uint64_t bytes, std::string_view what) const {
   named([&] { budget->promise(bytes, what); });
 }
 
+void Document::checkReads(double values, std::string_view what) const {
+  named([&] { budget->checkReads(values, what); });
+}
+
 void openDocument(Document& document, const std::filesystem::path& path, Notices& notices) {
   document.name = path.string();
   document.folder = path.parent_path();

@@ -59,6 +59,7 @@ struct Document {
   void hold(std::uint64_t bytes, std::string_view what) const;
   void pass(std::uint64_t bytes, std::string_view what) const;
   void promise(std::uint64_t bytes, std::string_view what) const;
+  void checkReads(double values, std::string_view what) const;
   /// Of what the file goes on without.
   void warn(std::string what) const { notices->warn(std::move(what)); }
 

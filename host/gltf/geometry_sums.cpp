@@ -30,7 +30,7 @@ double countOf(const Document& document, int index) {
 
 /// One copy of a mesh.
 struct MeshSums {
-  double triangles = 0, vertices = 0, bytes = 0, largest = 0;
+  double triangles = 0, vertices = 0, bytes = 0, largest = 0, reads = 0;
   bool has[std::size(kAttributes)] = {};
 };
 
@@ -52,6 +52,9 @@ MeshSums sumMesh(const Document& document, int mesh) {
     // Parts of a mesh often share one array of vertices; each takes along what it uses.
     sums.vertices += std::min(vertices, corners);
     sums.bytes += bytes;
+    std::size_t targets = 0;
+    for (const auto& target : p.targets) targets += target.size();
+    sums.reads += corners + 3 * vertices * static_cast<double>(p.attributes.size() + targets);
     // One attribute, the corners, and the copy in world space, for a moment each.
     sums.largest = std::max(sums.largest, bytes + 4 * corners + 44 * vertices);
   }
@@ -76,8 +79,9 @@ GeometrySums sumGeometry(const Document& document, const Hierarchy& hierarchy) {
     const Node& node = document.nodes[at(index)];
     if (node.mesh < 0) continue;
     auto& mesh = meshes[at(node.mesh)];
-    if (!mesh) {
-      mesh = sumMesh(document, node.mesh);
+    if (!mesh || !node.weights().empty()) {  // with weights of a node's own it is read again
+      mesh = mesh ? mesh : sumMesh(document, node.mesh);
+      sums.reads += mesh->reads;
     } else if (!isShared[at(node.mesh)]) {
       isShared[at(node.mesh)] = true;
       sums.meshBytes += mesh->bytes;
@@ -100,7 +104,8 @@ GeometrySums holdGeometry(Document& document, const Hierarchy& hierarchy, std::u
   const auto bytes = [](double b) { return static_cast<std::uint64_t>(std::min(b, 9e18)); };
   const std::string what = sums.triangles < 1e6
                                ? fmt::format("its {:.0f} triangles", sums.triangles)
-                               : fmt::format("its {:.3g} million triangles", sums.triangles / 1e6);
+                               : fmt::format("its {:.4g} million triangles", sums.triangles / 1e6);
+  document.checkReads(sums.reads, "its meshes");
   document.hold(bytes(sums.sceneBytes), what);
   document.pass(bytes(sums.meshBytes + sums.largestMesh), what);
   document.promise(bytes(static_cast<double>(triangleBytes) * sums.triangles), what);

@@ -13,6 +13,7 @@ struct GeometrySums {
   double triangles = 0, vertices = 0;  ///< upper bounds; doubles, since products may be of any size
   double sceneBytes = 0;               ///< of the scene's arrays
   double meshBytes = 0;                ///< read, in their own space, and kept for several nodes
+  double reads = 0;                    ///< values of attributes and morph targets
   double largestMesh = 0;              ///< the most that one takes while it is read and copied
 };
 /// Reads no accessor. What says that it reaches beyond its data counts as far as those go.

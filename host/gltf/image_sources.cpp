@@ -91,7 +91,7 @@ void ImageSources::hold(const std::set<int>& materials, std::uint64_t texelBytes
   }
   if (bytes == 0) return;
   const std::string what =
-      fmt::format("{}, {:.3g} megapixels in all,",
+      fmt::format("{}, {:.4g} megapixels in all,",
                   images.size() == 1 ? "its image" : fmt::format("its {} images", images.size()),
                   static_cast<double>(pixels) / 1e6);
   document_.pass(bytes + decoder, what);

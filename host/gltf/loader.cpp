@@ -152,7 +152,9 @@ void load(Document& document, const LoadOptions& options, Scene& scene, Notices&
 
 }  // namespace gltf
 
-Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
+namespace {
+
+Scene loadFile(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
   Scene scene;
   scene.file = path.string();
   gltf::Document document;
@@ -170,6 +172,14 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, No
   } catch (const std::length_error&) {
     document.fail("needs more memory than there is");
   }
+  return scene;
+}
+
+}  // namespace
+
+Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
+  Scene scene = loadFile(path, options, notices);
+  returnFreedMemory();  // of the document
   addDefaults(scene, notices, options);
   return scene;
 }

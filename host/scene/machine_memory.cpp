@@ -2,6 +2,10 @@
 
 #include <sys/resource.h>
 
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <fstream>
 #include <limits>
@@ -83,6 +87,12 @@ std::optional<std::uint64_t> freeMemory(const fs::path& root) {
 /// Of the addresses that a process may have, what programs and stacks of threads map and never touch.
 /// Libraries that get less fail in ways of their own, and one waits for ever.
 constexpr std::uint64_t kMappedBytes = 400'000'000;
+
+void returnFreedMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 MemoryLimit memoryLimitOfMachine() {
   std::optional<std::uint64_t> least = freeMemory();

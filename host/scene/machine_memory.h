@@ -17,4 +17,8 @@ std::optional<std::uint64_t> freeMemory(const std::filesystem::path& root = "/")
 /// (RLIMIT_AS, RLIMIT_DATA), the rest being for the others.
 MemoryLimit memoryLimitOfMachine();
 
+/// Gives freed memory back that the allocator keeps for more of the same: after phases that took much of it
+/// in small pieces.
+void returnFreedMemory();
+
 }  // namespace whittle

@@ -42,6 +42,16 @@ void MemoryBudget::check(std::uint64_t before, std::uint64_t bytes, std::string_
                                limit_.isChosen ? "a larger --memory-limit" : "--memory-limit SIZE"));
 }
 
+void MemoryBudget::checkReads(double values, std::string_view what) const {
+  constexpr double kSmallFilesReads = 3e8, kReadsForEachByte = 64;
+  const double most = kSmallFilesReads + kReadsForEachByte * static_cast<double>(fileBytes_);
+  if (limit_.isChosen || values <= most) return;
+  throw InputError(
+      fmt::format("{} have {:.3g} million values to read; input of {} may have {:.3g} million: "
+                  "--memory-limit SIZE allows more",
+                  what, values / 1e6, formatBytes(fileBytes_), most / 1e6));
+}
+
 void MemoryBudget::pass(std::uint64_t bytes, std::string_view what) {
   check(held_, bytes, what, Cause::File);
   peak_ = std::max(peak_, sum(held_, bytes));

@@ -32,6 +32,9 @@ class MemoryBudget {
   void pass(std::uint64_t bytes, std::string_view what);
   /// The same for what will be taken once everything is loaded, beside all that is held then.
   void promise(std::uint64_t bytes, std::string_view what, Cause cause = Cause::File);
+  /// Throws InputError where a file without --memory-limit asks for that many values to be read, again and
+  /// again the same mostly: a small one shall not take long either.
+  void checkReads(double values, std::string_view what) const;
   void release(std::uint64_t bytes) { held_ -= bytes < held_ ? bytes : held_; }
   /// Bytes of a file that is read: they raise what the scene may take.
   void sawFile(std::uint64_t bytes) { fileBytes_ += bytes; }

@@ -158,6 +158,18 @@ TEST(GltfMemory, AnAccessorOfZerosIsCounted) {
   expectRefusal(b, 200, "would take");
 }
 
+TEST(GltfMemory, TheSameValuesAreNotReadForEver) {
+  GltfBuilder b;
+  const int zeros = b.accessor(-1, "VEC3", test::kFloat, 1 << 24);
+  Json targets = Json::array();
+  for (int i = 0; i < 20; ++i) targets.push_back({{"POSITION", zeros}});
+  b.node({{"mesh", b.mesh({{"attributes", {{"POSITION", zeros}}},
+                           {"indices", b.indices(std::vector<std::uint8_t>{0, 1, 2})},
+                           {"targets", targets}})}});
+  const std::string text = b.error();
+  EXPECT_NE(text.find("its meshes have 1.06e+03 million values to read"), std::string::npos) << text;
+}
+
 TEST(GltfMemory, TextIsCountedBeforeItIsParsed) {
   GltfBuilder b;
   b.node({{"mesh", b.triangleMesh()}});

@@ -64,11 +64,13 @@ bool areDeep(const std::vector<std::uint16_t>& values) {
   return std::any_of(values.begin(), values.end(), [](std::uint16_t v) { return v % 257 != 0; });
 }
 
-/// As the library converts what it reads.
+/// As the library converts what it reads; some at a time, since it goes through floats.
 std::vector<std::uint8_t> inEightBits(const std::vector<std::uint16_t>& values) {
   std::vector<std::uint8_t> bytes(values.size());
-  OIIO::convert_pixel_values(OIIO::TypeDesc::UINT16, values.data(), OIIO::TypeDesc::UINT8, bytes.data(),
-                             static_cast<int>(values.size()));
+  constexpr std::size_t kAtOnce = 1 << 16;
+  for (std::size_t at = 0; at < values.size(); at += kAtOnce)
+    OIIO::convert_pixel_values(OIIO::TypeDesc::UINT16, &values[at], OIIO::TypeDesc::UINT8, &bytes[at],
+                               static_cast<int>(std::min(kAtOnce, values.size() - at)));
   return bytes;
 }
 

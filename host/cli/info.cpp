@@ -55,12 +55,13 @@ void runInfo(InfoOptions& o) {
     if (!o.settings.device.empty()) throw;
     problem = e.what();
   }
+  const std::uint64_t peak = plan ? peakBytes(scene, *plan, budget.peak()) : 0;
   const PrunedScene pruned = plan ? std::move(plan->pruned) : pruneScene(scene, o.settings);
   const SceneFeatures features =
       plan ? plan->features : SceneFeatures::analyse(scene, pruned, o.settings, {});
   const auto stages =
       plan ? plan->stages : plannedStages({features, pruned.lights.size(), mostHits(features, o.settings)});
-  const InfoReport report{scene, notices, features, pruned.pruning, stages, plan, problem};
+  const InfoReport report{scene, notices, features, pruned.pruning, stages, plan, problem, peak};
   if (o.json)
     tell(fmt::format("{}\n",
                      infoJson(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));

@@ -125,5 +125,64 @@ TEST(MemoryLimit, SmallFilesThatAskForMuchEndAtOnce) {
   }
 }
 
+/// `info`'s peak against a process of its own, whose kernels are compiled already.
+void expectPeak(std::vector<std::string> args) {
+  const Outcome info = [&] {
+    std::vector<std::string> all{"info", "--json"};
+    all.insert(all.end(), args.begin(), args.end());
+    return runWhittle(all);
+  }();
+  ASSERT_EQ(info.status, 0) << info.err;
+  const auto said = Json::parse(info.out)["peakBytes"].get<double>();
+  const Folder folder;
+  args.insert(args.begin(), "render");
+  args.insert(args.end(), {"--quiet", "-o", (folder / "a.png").string()});
+  ASSERT_EQ(usageOf(args).status, 0);
+  const Usage usage = usageOf(args);
+#ifndef __SANITIZE_ADDRESS__
+  EXPECT_NEAR(said / 1024.0 / static_cast<double>(usage.kilobytes), 1.0, 0.2)
+      << "said " << said / 1e6 << " MB, took " << static_cast<double>(usage.kilobytes) * 1.024e-3;
+#endif
+}
+
+TEST(PeakMemory, IsThatOfASmallRender) { expectPeak({scene(), "--width", "64", "--height", "48"}); }
+
+TEST(PeakMemory, GrowsWithThePicture) {
+  expectPeak({scene("shadow.glb"), "--width", "3000", "--height", "2000"});
+}
+
+TEST(PeakMemory, GrowsWithTheTriangles) {
+  // A million of them, on a grid of instances.
+  const Folder folder;
+  constexpr int kInstances = 1000, kTriangles = 1000;
+  std::string binary;
+  const auto add = [&](const std::vector<float>& values) {
+    binary.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  };
+  for (int i = 0; i < kTriangles; ++i) {
+    const auto x = static_cast<float>(i % 32) / 32.0F, y = static_cast<float>(i / 32) / 32.0F;
+    add({x, y, 0.1F * x, x + 0.03F, y, 0.1F * y, x, y + 0.03F, 0.1F * x * y});
+  }
+  for (int i = 0; i < kInstances; ++i)
+    add({static_cast<float>(i % 32), static_cast<float>(i / 32), static_cast<float>(i % 7)});
+  std::ofstream(folder / "a.bin", std::ios::binary) << binary;
+  const std::size_t split = std::size_t{kTriangles} * 36;
+  const Json json{
+      {"asset", {{"version", "2.0"}}},
+      {"buffers", {{{"byteLength", binary.size()}, {"uri", "a.bin"}}}},
+      {"bufferViews",
+       {{{"buffer", 0}, {"byteLength", split}},
+        {{"buffer", 0}, {"byteOffset", split}, {"byteLength", binary.size() - split}}}},
+      {"accessors",
+       {{{"bufferView", 0}, {"type", "VEC3"}, {"componentType", 5126}, {"count", 3 * kTriangles}},
+        {{"bufferView", 1}, {"type", "VEC3"}, {"componentType", 5126}, {"count", kInstances}}}},
+      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
+      {"nodes",
+       {{{"mesh", 0},
+         {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", 1}}}}}}}}}}};
+  std::ofstream(folder / "a.gltf") << json.dump();
+  expectPeak({(folder / "a.gltf").string(), "--width", "64", "--height", "48"});
+}
+
 }  // namespace
 }  // namespace whittle::test

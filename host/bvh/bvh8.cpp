@@ -216,10 +216,13 @@ UninitializedVector<Bvh8Node> join(Part& top) {
 
 Bvh8 buildBvh8(const TriTree& tree, std::span<const glm::vec3> positions,
                std::span<const glm::uvec3> triangles) {
-  Collapse collapse(tree, positions, triangles);
-  const std::unique_ptr<Part> top = collapse.run();
   Bvh8 wide;
-  wide.corners = collapse.takeCorners();
+  std::unique_ptr<Part> top;
+  {  // The plan goes before the parts are joined.
+    Collapse collapse(tree, positions, triangles);
+    top = collapse.run();
+    wide.corners = collapse.takeCorners();
+  }
   wide.nodes = join(*top);
   wide.leaves = top->leaves;
   wide.depth = top->depth;

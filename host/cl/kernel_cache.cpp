@@ -67,8 +67,9 @@ std::string problemOf(const fs::path& folder) {
 /// fixed name, so that the next run finds them; another where that name is taken by somebody.
 fs::path privateFolder() {
   std::error_code error;
-  const fs::path temporary = fs::temp_directory_path(error);
-  if (error) return {};
+  fs::path temporary = fs::temp_directory_path(error);
+  if (error || ::access(temporary.c_str(), W_OK | X_OK) != 0)
+    temporary = "/tmp";  // $TMPDIR says nothing good
   const fs::path folder = temporary / fmt::format("whittle-kernels-{}", ::geteuid());
   struct stat status {};
   ::mkdir(folder.c_str(), 0700);

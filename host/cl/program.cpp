@@ -3,15 +3,9 @@
 
 #include <fmt/format.h>
 
-namespace whittle {
+#include "scene/byte_counts.h"
 
-std::string formatBytes(std::uint64_t bytes) {
-  static const char* const kUnits[] = {"B", "kB", "MB", "GB", "TB"};
-  double value = static_cast<double>(bytes);
-  int unit = 0;
-  while (value >= 1000.0 && unit < 4) value /= 1000.0, ++unit;
-  return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.3g} {}", value, kUnits[unit]);
-}
+namespace whittle {
 
 Compute::Compute(DeviceInfo device, Memory memory, Launches launches)
     : device_(std::move(device)), memory_(memory), launches_(launches) {
@@ -43,9 +37,13 @@ Buffer Compute::upload(const std::string& name, const void* data, std::size_t by
 void Compute::write(const Buffer& buffer, const void* data) { write(buffer, data, buffer.bytes); }
 
 void Compute::write(const Buffer& buffer, const void* data, std::size_t bytes) {
-  if (!buffer.handle() || bytes == 0) return;
+  write(buffer, 0, {static_cast<const std::byte*>(data), bytes});
+}
+
+void Compute::write(const Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes) {
+  if (!buffer.handle() || bytes.empty()) return;
   clTry(fmt::format("uploading '{}'", buffer.name),
-        [&] { queue_.enqueueWriteBuffer(buffer.handle, CL_TRUE, 0, bytes, data); });
+        [&] { queue_.enqueueWriteBuffer(buffer.handle, CL_TRUE, offset, bytes.size(), bytes.data()); });
 }
 
 void Compute::read(const Buffer& buffer, std::size_t offset, std::size_t bytes, void* out) {

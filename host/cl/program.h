@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,8 @@ class Compute {
   void write(const Buffer& buffer, const void* data);
   /// Its first `bytes` only.
   void write(const Buffer& buffer, const void* data, std::size_t bytes);
+  /// From `offset` on.
+  void write(const Buffer& buffer, std::size_t offset, std::span<const std::byte> bytes);
   /// Blocking copy to the host.
   void read(const Buffer& buffer, std::size_t offset, std::size_t bytes, void* out);
   void fillZero(const Buffer& buffer);
@@ -66,8 +69,5 @@ class Compute {
   cl::CommandQueue queue_;
   std::string buildLog_;
 };
-
-/// "12.5 MB", for people.
-std::string formatBytes(std::uint64_t bytes);
 
 }  // namespace whittle

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "image/image_header.h"
 #include "image/image_io.h"
 #include "report/text.h"
 #include "scene/input_error.h"
@@ -62,7 +63,19 @@ void warnOf(const Flaws& flaws, const std::string& file, std::size_t texels, Not
                              fmt::join(kinds, ", ")));
 }
 
-Background readBackground(const std::string& file, Notices& notices) {
+/// The map as it is read, in the scene and on the device: floats each time.
+void holdMap(const std::string& file, MemoryBudget& budget) {
+  const auto header = headerOf(std::filesystem::path(file));
+  if (!header) return;
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+  if (!unknown) budget.sawFile(size);
+  budget.hold(sizeof(float) * 3 * 3 * header->pixels(),
+              fmt::format("--background: the {}×{} texels of {}", header->width, header->height, file));
+}
+
+Background readBackground(const std::string& file, MemoryBudget& budget, Notices& notices) {
+  holdMap(file, budget);
   FloatImage image;
   try {
     image = readFloatImage(file);
@@ -87,9 +100,9 @@ Background readBackground(const std::string& file, Notices& notices) {
   return background;
 }
 
-Background parseBackground(const std::string& text, Notices& notices) {
+Background parseBackground(const std::string& text, MemoryBudget& budget, Notices& notices) {
   glm::vec3 radiance;
-  if (!parseRadiance(text, radiance)) return readBackground(text, notices);
+  if (!parseRadiance(text, radiance)) return readBackground(text, budget, notices);
   if (!(radiance.r >= 0.0F && radiance.g >= 0.0F && radiance.b >= 0.0F) ||
       !std::isfinite(radiance.r + radiance.g + radiance.b))
     throw InputError(fmt::format("--background: '{}': radiance must be finite and not negative", text));
@@ -100,8 +113,9 @@ Background parseBackground(const std::string& text, Notices& notices) {
 
 }  // namespace
 
-void applyBackground(Scene& scene, const std::string& text, const Settings& settings, Notices& notices) {
-  if (!text.empty()) scene.background = parseBackground(text, notices);
+void applyBackground(Scene& scene, const std::string& text, const Settings& settings, MemoryBudget& budget,
+                     Notices& notices) {
+  if (!text.empty()) scene.background = parseBackground(text, budget, notices);
   scene.background.radiance *= settings.backgroundStrength;
   scene.background.rotation = settings.backgroundRotation;
 }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "scene/memory_budget.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -13,6 +14,7 @@ namespace whittle::cli {
 /// the scene, then turns and scales it as the settings say. Texels that no sky can have are mended, with one
 /// warning: NaN and negative values count as 0, infinite ones as the largest that half floats have. Throws
 /// InputError that names the option.
-void applyBackground(Scene& scene, const std::string& text, const Settings& settings, Notices& notices);
+void applyBackground(Scene& scene, const std::string& text, const Settings& settings, MemoryBudget& budget,
+                     Notices& notices);
 
 }  // namespace whittle::cli

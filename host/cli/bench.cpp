@@ -108,7 +108,8 @@ void runBenchCommand(BenchCommand& o) {
   warnIfAny(settleKernelCache());
   if (!o.kernelFolder.empty()) o.bench.kernelFolder = o.kernelFolder;
   Settings settings;
-  const Scene scene = loadScene(o.scene, settings, notices);
+  MemoryBudget budget = budgetOf(o.scene);
+  const Scene scene = loadScene(o.scene, {}, settings, budget, notices);
   BenchResult result;
   {
     ProgressBar bar(o.scene.quiet);

@@ -6,10 +6,10 @@
 
 #include "cl/device.h"
 #include "cl/kernel_cache.h"
-#include "cl/program.h"
 #include "cli/commands.h"
 #include "cli/speech.h"
 #include "report/text.h"
+#include "scene/byte_counts.h"
 
 namespace whittle::cli {
 namespace {

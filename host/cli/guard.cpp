@@ -19,9 +19,9 @@
 #include <optional>
 #include <string_view>
 
-#include "cl/program.h"
 #include "cli/speech.h"
 #include "cli/starvation.h"
+#include "scene/byte_counts.h"
 
 namespace whittle::cli {
 namespace {

@@ -13,6 +13,7 @@
 #include "cli/option_kinds.h"
 #include "cli/options.h"
 #include "cli/speech.h"
+#include "render/peak_memory.h"
 #include "render/renderer.h"
 #include "scene/camera.h"
 #include "wavefront/camera_to_device.h"
@@ -41,7 +42,8 @@ void checkAovs(InfoOptions& o) {
 void runInfo(InfoOptions& o) {
   Notices notices;
   notices.notes = uselessOptions(o.settings);
-  const Scene scene = loadScene(o.scene, o.settings, notices);
+  MemoryBudget budget = budgetOf(o.scene);
+  const Scene scene = loadScene(o.scene, {{kTriangleBytes, 0}}, o.settings, budget, notices);
   findCamera(scene, o.settings.camera);
   warnIfAny(settleKernelCache());
   prepareCpuThreads(o.settings.threads, o.settings.workGroup);
@@ -55,12 +57,13 @@ void runInfo(InfoOptions& o) {
     if (!o.settings.device.empty()) throw;
     problem = e.what();
   }
+  const std::uint64_t peak = plan ? peakBytes(scene, *plan, budget.peak()) : 0;
   const PrunedScene pruned = plan ? std::move(plan->pruned) : pruneScene(scene, o.settings);
   const SceneFeatures features =
       plan ? plan->features : SceneFeatures::analyse(scene, pruned, o.settings, {});
   const auto stages =
       plan ? plan->stages : plannedStages({features, pruned.lights.size(), mostHits(features, o.settings)});
-  const InfoReport report{scene, notices, features, pruned.pruning, stages, plan, problem};
+  const InfoReport report{scene, notices, features, pruned.pruning, stages, plan, problem, peak};
   if (o.json)
     tell(fmt::format("{}\n",
                      infoJson(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cli/info_report.h"
+#include "render/peak_memory.h"
 #include "report/json_float.h"
 #include "scene/camera.h"
 #include "wavefront/stages.h"
@@ -119,6 +120,8 @@ Json infoJson(const InfoReport& r) {
   json["deviceProblem"] = r.plan ? Json(nullptr) : Json(r.planProblem);
   json["buffers"] = r.plan ? buffersJson(*r.plan) : Json(nullptr);
   json["everythingBytes"] = r.plan ? Json(r.plan->everythingBytes) : Json(nullptr);
+  json["peakBytes"] = r.plan ? Json(r.peakBytes) : Json(nullptr);
+  json["compilerBytes"] = r.plan ? Json(kCompilerBytes) : Json(nullptr);
   json["warnings"] = r.notices.warnings;
   json["notes"] = r.notices.notes;
   return json;

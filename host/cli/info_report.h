@@ -19,6 +19,7 @@ struct InfoReport {
   std::vector<std::string> stages;
   std::optional<RenderPlan> plan;  ///< unset: no device
   std::string planProblem;         ///< why
+  std::uint64_t peakBytes = 0;     ///< of a render's process; 0 without a plan
 };
 
 std::string infoText(const InfoReport& report);

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cl/program.h"
 #include "cli/info_features.h"
 #include "cli/info_report.h"
 #include "cli/viewpoint.h"
+#include "render/peak_memory.h"
 #include "report/printable.h"
 #include "report/text.h"
+#include "scene/byte_counts.h"
 #include "scene/camera.h"
 
 namespace whittle::cli {
@@ -178,13 +179,22 @@ std::string buffersText(const RenderPlan& plan) {
                            formatBytes(plan.everythingBytes));
 }
 
+std::string peakText(std::uint64_t bytes) {
+  return "\nMemory of a render\n  " +
+         wrapped(fmt::format("about {} at its most, buffers and all; {} more while kernels are compiled that "
+                             "were not before",
+                             formatBytes(bytes), formatBytes(kCompilerBytes)),
+                 78, 2) +
+         "\n";
+}
+
 }  // namespace
 
 std::string infoText(const InfoReport& r) {
   std::string out = printableLine(r.scene.file) + "\n\n" + contents(r.scene) + featuresText(r.features) +
                     pruningText(r.pruning);
   out += "\nStages that will run\n  " + wrapped(fmt::format("{}", fmt::join(r.stages, ", ")), 78, 2) + "\n\n";
-  if (r.plan) return out + buffersText(*r.plan);
+  if (r.plan) return out + buffersText(*r.plan) + peakText(r.peakBytes);
   return out + "Buffers\n  " + wrapped("unknown: " + r.planProblem, 78, 2) + "\n";
 }
 

@@ -13,12 +13,15 @@
 #include "cli/background.h"
 #include "cli/error_options.h"
 #include "cli/feature_names.h"
+#include "cli/guard.h"
 #include "cli/option_kinds.h"
 #include "cli/speech.h"
 #include "gltf/loader.h"
 #include "report/text.h"
+#include "scene/byte_counts.h"
 #include "scene/camera.h"
 #include "scene/input_error.h"
+#include "scene/machine_memory.h"
 
 namespace whittle::cli {
 
@@ -47,6 +50,15 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
   c.add_flag(
       "--confine", o.confined,
       "refuse a file that reads buffers or images outside its own folder; otherwise a note says so [off]");
+  addText(c, "--memory-limit",
+          [&o](const std::string& word) {
+            const auto bytes = parseBytes(word);
+            if (!bytes)
+              throw InputError(fmt::format("--memory-limit: '{}' is not a size such as 500M or 4G", word));
+            o.memory = MemoryLimit{*bytes, true};
+          },
+          {"SIZE", "refuse what would take more memory than this, before it is taken: 500M, 4G, 2GiB",
+           "four fifths of what is free; for a file 4 GB and 256 times its size"});
   c.add_flag("--default-background,!--no-default-background", o.defaultBackground,
              "and put the studio's surroundings there, for smooth surfaces to mirror [on]");
 }
@@ -165,25 +177,42 @@ void settleSize(const SceneOptions& options, const Scene& scene, Settings& setti
 
 }  // namespace
 
-Scene loadScene(const SceneOptions& options, Settings& settings, Notices& notices) {
+MemoryBudget budgetOf(const SceneOptions& options) {
+  return MemoryBudget(options.memory.value_or(memoryLimitOfMachine()));
+}
+
+Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings& settings,
+                MemoryBudget& budget, Notices& notices) {
+  nowDoing("reading the scene");
+  const auto holdPicture = [&] {
+    budget.promise(costs.picture(settings),
+                   fmt::format("a picture of {}×{}", settings.width, settings.height),
+                   MemoryBudget::Cause::CommandLine);
+  };
+  const bool hasSize = given(options.width) == given(options.height);
+  budget.promise(costs.programBytes, "the program and its drivers", MemoryBudget::Cause::CommandLine);
+  if (hasSize) holdPicture();
   LoadOptions load;
+  load.memory = &budget;
+  load.later = costs.scene;
   load.camera = settings.camera;
   load.viewpoint = chosenViewpoint(options.view);
-  if (given(options.width) == given(options.height))
-    load.aspect = static_cast<double>(settings.width) / settings.height;
+  if (hasSize) load.aspect = static_cast<double>(settings.width) / settings.height;
   if (!options.scene.empty()) load.sceneName = options.scene;
   load.defaultLights = options.defaultLights;
   load.confined = options.confined;
   load.defaultBackground = options.defaultBackground && options.background.empty();
   Scene scene = loadGltf(options.file, load, notices);
   settleSize(options, scene, settings);
+  if (!hasSize) holdPicture();
   if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))
     notices.note("something lies beyond the camera's zfar; --clip-far leaves it out");
-  applyBackground(scene, options.background, settings, notices);
+  applyBackground(scene, options.background, settings, budget, notices);
   if (!settings.ambient) {
     settings.ambient = automaticAmbient(scene);
     notices.note(fmt::format("--ambient auto: {} W/(m² sr)", *settings.ambient));
   }
+  nowDoing("");
   for (const auto& text : notices.warnings) warn(text);
   if (!options.quiet)
     for (const auto& text : notices.notes) note(text);

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "cli/viewpoint.h"
+#include "gltf/loader.h"
+#include "scene/memory_budget.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -22,6 +24,7 @@ struct SceneOptions {
   bool defaultBackground = true;
   bool confined = false;  ///< see LoadOptions
   bool quiet = false;
+  std::optional<MemoryLimit> memory;  ///< unset: what the machine has
   ViewpointOptions view;
   CLI::Option *width = nullptr, *height = nullptr;  ///< null where the command draws no picture
 };
@@ -35,8 +38,20 @@ void addDeviceOptions(CLI::App& command, Settings& settings);
 /// A line for each option that changes nothing, with the reason.
 std::vector<std::string> uselessOptions(const Settings& settings);
 
+/// What a command will take beside the scene.
+struct CommandCosts {
+  LaterCosts scene;
+  std::uint64_t programBytes = 0;  ///< whatever is loaded
+  std::uint64_t (*picture)(const Settings&) = [](const Settings&) { return std::uint64_t{0}; };
+};
+
+/// Held against --memory-limit.
+MemoryBudget budgetOf(const SceneOptions& options);
+
 /// Loads, applies the background, prints notices to standard error (quiet: warnings only). Settles what the
 /// settings leave to the scene: one side of the picture where the other alone was given, and the camera.
-Scene loadScene(const SceneOptions& options, Settings& settings, Notices& notices);
+/// Throws InputError before it takes what `budget` does not allow.
+Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings& settings,
+                MemoryBudget& budget, Notices& notices);
 
 }  // namespace whittle::cli

@@ -53,20 +53,33 @@ void writeStream(const fs::path& path, const std::string& text) {
                                          standard ? "standard output" : path.string(), std::strerror(error)));
 }
 
+/// Wherever links lead.
+bool isSame(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::weakly_canonical(fs::absolute(a, error), error) ==
+         fs::weakly_canonical(fs::absolute(b, error), error);
+}
+
+[[noreturn]] void refuseInput(const std::string& option, const fs::path& file) {
+  throw InputError(fmt::format("{}: {} is the input; it would be overwritten", option, file.string()));
+}
+
 }  // namespace
 
+void OutputCheck::reads(const fs::path& file) {
+  for (const Claim& claim : claims_)
+    if (isSame(claim.file, file)) refuseInput(claim.option, claim.file);
+  inputs_.push_back(file);
+}
+
 void OutputCheck::claim(const std::string& option, const fs::path& file) {
-  const auto same = [&](const fs::path& other) {
-    std::error_code error;
-    return fs::weakly_canonical(fs::absolute(other, error), error) ==
-           fs::weakly_canonical(fs::absolute(file, error), error);
-  };
   if (isStream(file)) return;
-  if (same(used_.front()))
-    throw InputError(fmt::format("{}: {} is the input; it would be overwritten", option, file.string()));
-  if (std::any_of(used_.begin() + 1, used_.end(), same))
-    throw InputError(fmt::format("{}: {} is named for two outputs", option, file.string()));
-  used_.push_back(file);
+  for (const fs::path& input : inputs_)
+    if (isSame(input, file)) refuseInput(option, file);
+  for (const Claim& other : claims_)
+    if (isSame(other.file, file))
+      throw InputError(fmt::format("{}: {} is named for two outputs", option, file.string()));
+  claims_.push_back({option, file});
 }
 
 void OutputCheck::picture(const std::string& option, const fs::path& file) {

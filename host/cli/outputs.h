@@ -11,12 +11,14 @@
 
 namespace whittle::cli {
 
-/// Everything that one command will write, so that the checks happen in one place.
+/// Everything that one command will read and write, so that the checks happen in one place.
 class OutputCheck {
  public:
-  /// `input`: the scene, which no output may replace. Width and height: of the pictures.
-  OutputCheck(std::filesystem::path input, int width, int height)
-      : width_(width), height_(height), used_{std::move(input)} {}
+  /// Width and height: of the pictures.
+  OutputCheck(int width, int height) : width_(width), height_(height) {}
+
+  /// `file` is an input: throws InputError where an output, named before or after this, would replace it.
+  void reads(const std::filesystem::path& file);
 
   /// Throws InputError unless `file` can be written as a picture, and is not named twice.
   void picture(const std::string& option, const std::filesystem::path& file);
@@ -26,8 +28,13 @@ class OutputCheck {
  private:
   void claim(const std::string& option, const std::filesystem::path& file);
 
+  struct Claim {
+    std::string option;
+    std::filesystem::path file;
+  };
   int width_, height_;
-  std::vector<std::filesystem::path> used_;
+  std::vector<std::filesystem::path> inputs_;
+  std::vector<Claim> claims_;
   bool standardOutputUsed_ = false;
 };
 

@@ -30,12 +30,15 @@ struct ReferenceOptions {
   std::vector<AovOutput> aovs;  ///< aovTexts, parsed
 };
 
-void checkOutputs(ReferenceOptions& o) {
-  OutputCheck check(o.scene.file, o.settings.width, o.settings.height);
+OutputCheck checkOutputs(ReferenceOptions& o) {
+  OutputCheck check(o.settings.width, o.settings.height);
+  for (const auto& file : {o.scene.file, std::filesystem::path(o.scene.background)})
+    if (!file.empty()) check.reads(file);
   for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, kReferenceAovs));
   for (const auto& file : o.outputs) check.picture("--output", file);
   for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
   check.text("--stats", o.stats);
+  return check;
 }
 
 std::string statsText(const ReferenceOptions& o, const Scene& scene, const ReferenceResult& result,
@@ -85,10 +88,13 @@ void writeResults(const ReferenceOptions& o, const Scene& scene, const Reference
 
 /// Returns the exit status.
 int runReference(ReferenceOptions& o) {
-  checkOutputs(o);
+  OutputCheck check = checkOutputs(o);
   loadImageCodec();  // what fails, fails before the work
   Notices notices;
-  const Scene scene = loadScene(o.scene, o.settings, notices);
+  MemoryBudget budget = budgetOf(o.scene);
+  const Scene scene = loadScene(o.scene, {{kReferenceTriangleBytes, 0}, 0, referencePictureBytes}, o.settings,
+                                budget, notices);
+  for (const auto& file : notices.files) check.reads(file);
   ProgressBar bar(o.scene.quiet);
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] {

@@ -9,7 +9,6 @@
 
 #include "cl/device.h"
 #include "cl/kernel_cache.h"
-#include "cl/program.h"
 #include "cli/aovs.h"
 #include "cli/build_failure.h"
 #include "cli/commands.h"
@@ -22,9 +21,11 @@
 #include "cli/progress_bar.h"
 #include "cli/speech.h"
 #include "cli/starvation.h"
+#include "render/peak_memory.h"
 #include "render/renderer.h"
 #include "report/profile_table.h"
 #include "report/text.h"
+#include "scene/byte_counts.h"
 
 namespace whittle::cli {
 namespace {
@@ -44,10 +45,12 @@ struct RenderOptions {
 };
 
 /// Fills in the default output and refuses, before anything is loaded, what could not be written at the end.
-void checkOutputs(RenderOptions& o) {
+OutputCheck checkOutputs(RenderOptions& o) {
   if (o.outputs.empty() && o.stats.empty() && o.trace.empty() && o.aovTexts.empty() && !o.profile)
     o.outputs.emplace_back(o.scene.file.stem().string() + ".png");
-  OutputCheck check(o.scene.file, o.settings.width, o.settings.height);
+  OutputCheck check(o.settings.width, o.settings.height);
+  for (const auto& file : {o.scene.file, std::filesystem::path(o.scene.background), o.reference})
+    if (!file.empty()) check.reads(file);
   for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, kRenderAovs));
   for (const auto& file : o.outputs) check.picture("--output", file);
   for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
@@ -55,6 +58,7 @@ void checkOutputs(RenderOptions& o) {
   check.text("--trace", o.trace);
   if (!o.kernelFolder.empty() && !std::filesystem::is_directory(o.kernelFolder))
     throw InputError(fmt::format("--kernels: {} is no folder", o.kernelFolder.string()));
+  return check;
 }
 
 FloatImage readReference(const RenderOptions& o) {
@@ -186,7 +190,7 @@ void report(const RenderOptions& o, const Stats& stats, const OutputWriter& file
 /// Returns the exit status.
 int runRender(RenderOptions& o) {
   const auto start = Clock::now();
-  checkOutputs(o);
+  OutputCheck check = checkOutputs(o);
   o.settings.aovs = !o.aovs.empty();
   const FloatImage reference = readReference(o);
   std::unique_ptr<Trace> trace;
@@ -196,7 +200,10 @@ int runRender(RenderOptions& o) {
 
   Notices notices;
   notices.notes = uselessOptions(o.settings);
-  const Scene scene = loadScene(o.scene, o.settings, notices);
+  MemoryBudget budget = budgetOf(o.scene);
+  const Scene scene = loadScene(o.scene, {{kTriangleBytes, kTexelBytes}, kRuntimeBytes, pictureBytes},
+                                o.settings, budget, notices);
+  for (const auto& file : notices.files) check.reads(file);
   if (trace) trace->phase("load", start);
   const double load = since(start);
   RenderResult result = renderWithProgress(scene, o, reference, trace.get());

@@ -102,12 +102,16 @@ Run baseRun(Document& document, int index) {
     run.stride = document.model.bufferViews[static_cast<std::size_t>(a.bufferView)].byteStride;
     return runIn(document, a.bufferView, a.byteOffset, run, index);
   }
-  // Nothing in the file backs these zeros, so the file's size does not bound them.
-  constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 24;
   if (run.count > kMostZeros) {
     document.fail(fmt::format("accessors[{}] has {} elements and no data", index, run.count));
   }
   return run;
+}
+
+/// The values of a run, which are about to be taken.
+void passValues(Document& document, const Run& run, int accessor) {
+  const std::uint64_t values = run.count * static_cast<std::uint64_t>(run.components);
+  document.pass(values * sizeof(float), fmt::format("the {} values of accessors[{}]", values, accessor));
 }
 
 template <class T, class Convert>
@@ -164,6 +168,7 @@ bool isSmallInteger(const tinygltf::Accessor& accessor) { return componentBytes(
 
 std::vector<float> readFloats(Document& document, int accessor) {
   const Run run = baseRun(document, accessor);
+  passValues(document, run, accessor);
   const auto convert = [&run](const std::byte* at) { return floatAt(at, run.componentType, run.normalized); };
   std::vector<float> out;
   const auto floatBytes = static_cast<std::uint64_t>(run.components) * sizeof(float);
@@ -179,6 +184,7 @@ std::vector<float> readFloats(Document& document, int accessor) {
 
 std::vector<std::uint32_t> readUnsigned(Document& document, int accessor) {
   const Run run = baseRun(document, accessor);
+  passValues(document, run, accessor);
   const auto convert = [&run](const std::byte* at) { return unsignedAt(at, run.componentType); };
   std::vector<std::uint32_t> out;
   decode(run, out, convert);

@@ -9,6 +9,9 @@
 
 namespace whittle::gltf {
 
+/// Nothing in the file backs the zeros of an accessor without a view, so the file's size does not bound them.
+inline constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 24;
+
 const tinygltf::Accessor& accessorAt(const Document& document, int accessor);
 int componentCount(const tinygltf::Accessor& accessor);
 bool isFloat(const tinygltf::Accessor& accessor);

@@ -12,6 +12,10 @@ namespace whittle::gltf {
 
 namespace {
 
+/// What the tree can hold.
+constexpr std::uint64_t kMostTriangles = std::uint64_t{1} << 27;
+constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 28;
+
 constexpr double kLargestCoordinate = 1.8e18;  ///< above it squared distances overflow a float
 
 /// A transform with what normals and windings need, computed once for each node (or skinned vertex).
@@ -94,9 +98,10 @@ std::vector<std::uint32_t> usedVertices(const LocalMesh& mesh, std::uint32_t fir
 /// with the first mesh that has it.
 template <class Vector>
 void append(std::vector<Vector>& array, const std::vector<Vector>& values,
-            const std::vector<std::uint32_t>& target, std::size_t before, std::size_t after,
+            const std::vector<std::uint32_t>& target, std::size_t before, std::size_t after, std::size_t room,
             const Vector& absent) {
   if (values.empty()) return;
+  array.reserve(room);
   array.resize(before, absent);
   array.resize(after, absent);
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -106,12 +111,16 @@ void append(std::vector<Vector>& array, const std::vector<Vector>& values,
 
 }  // namespace
 
-Baker::Baker(const Document& document, Scene& scene) : document_(document), scene_(scene) {}
+Baker::Baker(const Document& document, const GeometrySums& sums, Scene& scene)
+    : document_(document),
+      vertices_(static_cast<std::size_t>(std::min(sums.vertices, static_cast<double>(kMostVertices)))),
+      scene_(scene) {
+  scene.positions.reserve(vertices_);
+  scene.triangles.reserve(
+      static_cast<std::size_t>(std::min(sums.triangles, static_cast<double>(kMostTriangles))));
+}
 
 void Baker::reserveIndices(const LocalMesh& mesh) {
-  // What the tree can hold, and what keeps a small file with many instances from filling the memory.
-  constexpr std::uint64_t kMostTriangles = std::uint64_t{1} << 27;
-  constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 28;
   const std::uint64_t triangles = scene_.triangles.size() + scene_.droppedTriangles + mesh.triangles.size();
   if (triangles > kMostTriangles || scene_.positions.size() + mesh.positions.size() > kMostVertices) {
     document_.fail(fmt::format("has more than {} triangles or {} vertices", kMostTriangles, kMostVertices));
@@ -147,11 +156,11 @@ void Baker::bake(const LocalMesh& mesh, std::uint32_t material, const std::strin
     mirrored[i] = t.isMirrored;
     isSingular = isSingular || t.isSingular;
   }
-  append(scene_.normals, world.normals, target, before, after, glm::vec3(0.0F));
-  append(scene_.tangents, world.tangents, target, before, after, glm::vec4(0, 0, 0, 1));
-  append(scene_.uv0, mesh.uv[0], target, before, after, glm::vec2(0.0F));
-  append(scene_.uv1, mesh.uv[1], target, before, after, glm::vec2(0.0F));
-  append(scene_.colors, mesh.colors, target, before, after, glm::vec4(1.0F));
+  append(scene_.normals, world.normals, target, before, after, vertices_, glm::vec3(0.0F));
+  append(scene_.tangents, world.tangents, target, before, after, vertices_, glm::vec4(0, 0, 0, 1));
+  append(scene_.uv0, mesh.uv[0], target, before, after, vertices_, glm::vec2(0.0F));
+  append(scene_.uv1, mesh.uv[1], target, before, after, vertices_, glm::vec2(0.0F));
+  append(scene_.colors, mesh.colors, target, before, after, vertices_, glm::vec4(1.0F));
 
   const std::uint64_t degenerateBefore = degenerate_;
   for (const glm::uvec3& t : mesh.triangles) {

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "gltf/geometry_sums.h"
 #include "gltf/mesh.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
@@ -14,7 +15,8 @@ namespace whittle::gltf {
 /// Appends meshes to a scene. Vertices that no triangle uses are left behind.
 class Baker {
  public:
-  Baker(const Document& document, Scene& scene);
+  /// Makes room for `sums`, so that nothing is copied while the arrays grow.
+  Baker(const Document& document, const GeometrySums& sums, Scene& scene);
 
   /// One copy of `mesh`. `label` names the node, for messages.
   void add(const LocalMesh& mesh, const glm::dmat4& toWorld, std::uint32_t material,
@@ -33,6 +35,7 @@ class Baker {
   void addTriangle(const Triangle& triangle);
 
   const Document& document_;
+  std::size_t vertices_;  ///< that there is room for
   Scene& scene_;
   std::uint64_t unusable_ = 0;    ///< not finite or too large
   std::uint64_t degenerate_ = 0;  ///< no area

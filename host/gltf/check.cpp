@@ -50,7 +50,9 @@ struct Flaw {
 
 class Checker {
  public:
-  Checker(const Document& document, const Json& root) : document_(document) {
+  /// Nodes go to `nodes`: as JSON they would take ten times as much.
+  Checker(const Document& document, const Json& root, std::vector<Node>& nodes)
+      : document_(document), nodes_(nodes) {
     for (const Field& field : rootFields()) {
       if (field.kind == Kind::Objects && root.contains(field.key))
         counts_[field.key] = root[field.key].size();
@@ -59,7 +61,8 @@ class Checker {
     if (root.contains(lights)) counts_["lights"] = root[lights].size();
   }
 
-  Json object(const Json& in, std::span<const Field> fields, const Where& where) {
+  /// Takes `in` apart on the way, so that no file is there twice.
+  Json object(Json& in, std::span<const Field> fields, const Where& where) {
     if (!in.is_object()) wrong(where, "must be an object");
     Json out = Json::object();
     for (const Field& field : fields) {
@@ -102,7 +105,7 @@ class Checker {
     if (flaws.count++ == 0) flaws.first = std::move(what);
   }
 
-  Json value(const Json& in, const Field& field, const Where& where) {
+  Json value(Json& in, const Field& field, const Where& where) {
     switch (field.kind) {
       case Kind::Index:
         return indexValue(in, field, where);
@@ -120,7 +123,7 @@ class Checker {
       case Kind::Map:
         return map(in, field, where);
       case Kind::Raw:
-        return in;
+        return std::move(in);
       default:
         return array(in, field, where);
     }
@@ -146,7 +149,7 @@ class Checker {
     return out;
   }
 
-  Json array(const Json& in, const Field& field, const Where& where) {
+  Json array(Json& in, const Field& field, const Where& where) {
     if (!in.is_array()) wrong(where, "must be an array");
     if (field.kind == Kind::Numbers) return numbers(in, field, where);
     Json out = Json::array();
@@ -163,11 +166,19 @@ class Checker {
           out.push_back(map(in[i], field, element));
           break;
         default:
-          out.push_back(object(in[i], field.fields, element));
+          addObject(object(in[i], field.fields, element), field, out);
+          in[i] = nullptr;
           break;
       }
     }
     return out;
+  }
+
+  void addObject(Json checked, const Field& field, Json& out) {
+    if (std::string_view(field.key) == "nodes")
+      nodes_.push_back(nodeFrom(checked));
+    else
+      out.push_back(std::move(checked));
   }
 
   Json map(const Json& in, const Field& field, const Where& where) const {
@@ -177,9 +188,9 @@ class Checker {
     return out;
   }
 
-  Json textValue(const Json& in, const Where& where) const {
+  Json textValue(Json& in, const Where& where) const {
     if (!in.is_string()) wrong(where, "must be a string");
-    return in;
+    return std::move(in);
   }
 
   Json numberValue(const Json& in, const Where& where) const {
@@ -215,6 +226,7 @@ class Checker {
   }
 
   const Document& document_;
+  std::vector<Node>& nodes_;
   std::map<std::string_view, std::size_t> counts_;
   std::map<std::string_view, Flaws> forgiven_;  ///< by key
 };
@@ -230,9 +242,9 @@ void dropKeys(Json& json, std::span<const char* const> keys) {
 
 }  // namespace
 
-Json checkedCopy(const Document& document, const Json& json) {
+Json checkedCopy(const Document& document, Json json, std::vector<Node>& nodes) {
   if (!json.is_object()) document.fail("not a glTF file: its JSON is not an object");
-  Checker checker(document, json);
+  Checker checker(document, json, nodes);
   try {
     Json checked = checker.object(json, rootFields(), {});
     checker.warnOfForgiven();
@@ -243,32 +255,12 @@ Json checkedCopy(const Document& document, const Json& json) {
 }
 
 Json descriptionOnly(const Json& checked) {
-  Json out = checked;
-  out.erase("buffers");
-  out.erase("images");
+  Json out = Json::object();
+  for (const auto& [key, value] : checked.items())
+    if (key != "buffers" && key != "images" && key != "materials" && key != "nodes") out[key] = value;
   static constexpr std::array<const char*, 2> kKeys{"extensions", "extras"};
   dropKeys(out, kKeys);
   return out;
-}
-
-bool nestsTooDeep(std::string_view json) {
-  constexpr int kDeepest = 200;
-  int depth = 0;
-  bool inText = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (inText) {
-      if (c == '\\') ++i;
-      if (c == '"') inText = false;
-    } else if (c == '"') {
-      inText = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > kDeepest) return true;
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
-  }
-  return false;
 }
 
 }  // namespace whittle::gltf

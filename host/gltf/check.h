@@ -6,18 +6,15 @@
 
 namespace whittle::gltf {
 
-/// A copy of `json` with the properties that Whittle reads and no others. Throws InputError, naming the
-/// property, where one has the wrong type, is missing, or is an index that does not exist. Of how things look
-/// (shapes.cpp: what is forgiven) a property with a flaw is left out instead, with a warning. `extras` are
-/// kept as they are.
-Json checkedCopy(const Document& document, const Json& json);
+/// A copy of `json` with the properties that Whittle reads and no others, but for the nodes, which go to
+/// `nodes`. Throws InputError, naming the property, where one has the wrong type, is missing, or is an index
+/// that does not exist. Of how things look (shapes.cpp: what is forgiven) a property with a flaw is left out
+/// instead, with a warning. `extras` are kept as they are.
+Json checkedCopy(const Document& document, Json json, std::vector<Node>& nodes);
 
-/// The same without buffers, images, extensions and extras: what tinygltf gets to read. It would otherwise
-/// open every file, decode every image and read buffer views unchecked; numbers of extensions it would
-/// squeeze into an int.
+/// The same without buffers, images, materials, extensions and extras: what tinygltf gets to read. It would
+/// otherwise open every file, decode every image and read buffer views unchecked; numbers of extensions it
+/// would squeeze into an int, and a material takes two kilobytes there.
 Json descriptionOnly(const Json& checked);
-
-/// True if brackets are nested deeper than any glTF needs: parsers and destructors recurse.
-bool nestsTooDeep(std::string_view text);
 
 }  // namespace whittle::gltf

@@ -8,8 +8,9 @@
 #include <fstream>
 #include <system_error>
 
-#include "gltf/check.h"
+#include "gltf/json_cost.h"
 #include "gltf/uri.h"
+#include "scene/byte_counts.h"
 
 namespace whittle::gltf {
 
@@ -63,7 +64,9 @@ std::string_view splitBinary(Document& document) {
 Json parseJson(const Document& document, std::string_view text) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) document.fail("is empty");
   if (isLfsPointer(text)) document.fail("is a git-lfs pointer, not the file itself (run git lfs pull)");
-  if (nestsTooDeep(text)) document.fail("its JSON is nested deeper than any glTF file needs");
+  const JsonShape shape = shapeOf(text);
+  if (shape.isTooDeep) document.fail("its JSON is nested deeper than any glTF file needs");
+  document.pass(shape.bytes, fmt::format("its JSON of {}", formatBytes(text.size())));
   try {
     return Json::parse(text);
   } catch (const Json::exception& e) {

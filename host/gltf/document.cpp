@@ -9,6 +9,7 @@
 
 #include "gltf/check.h"
 #include "gltf/container.h"
+#include "gltf/json_cost.h"
 #include "gltf/shapes.h"
 #include "gltf/uri.h"
 #include "scene/input_error.h"
@@ -102,8 +103,22 @@ std::string firstSentence(const std::string& error) {
   return line;
 }
 
+/// What tinygltf takes of an object of an array, on top of its JSON: names, maps of extensions, extras.
+constexpr std::uint64_t kTinyObject = 450;
+
+std::uint64_t objectsIn(const Json& json) {
+  std::uint64_t count = json.is_object() ? 1 : 0;
+  if (json.is_structured())
+    for (const Json& element : json) count += objectsIn(element);
+  return count;
+}
+
 void readDescription(Document& document) {
-  const std::string text = withStandInView(descriptionOnly(document.json));
+  Json description = descriptionOnly(document.json);
+  const std::uint64_t bytes = bytesOf(description);
+  document.pass(3 * bytes, "its description");
+  document.hold(kTinyObject * objectsIn(description), "its description");
+  const std::string text = withStandInView(std::move(description));
   if (text.size() > std::numeric_limits<unsigned int>::max()) document.fail("its JSON is larger than 4 GB");
   tinygltf::TinyGLTF reader;
   std::string error;
@@ -118,16 +133,25 @@ void readDescription(Document& document) {
 
 void readFromUri(Document& document, int buffer, const std::string& uri, std::uint64_t length, Bytes& bytes) {
   if (isDataUri(uri)) {
+    document.pass(uri.size(), fmt::format("buffer {}", buffer));
     auto decoded = decodeDataUri(uri);
     if (!decoded) document.fail(fmt::format("the data URI of buffer {} cannot be decoded", buffer));
     bytes = std::move(*decoded);
+    document.hold(bytes.size(), fmt::format("buffer {}", buffer));
     return;
   }
   if (isAbsoluteUri(uri)) {
     document.fail(fmt::format("buffer {} is at{}; Whittle reads local files only", buffer, quotedName(uri)));
   }
   constexpr std::uint64_t kPointerStart = 64;  // enough to tell a git-lfs pointer by
-  const auto problem = readStart(fileOf(document, uri), std::max(length, kPointerStart), bytes);
+  const std::filesystem::path file = fileOf(document, uri);
+  const std::uint64_t wanted = std::max(length, kPointerStart);
+  std::error_code unknown;
+  if (const std::uintmax_t size = std::filesystem::file_size(file, unknown); !unknown) {
+    document.budget->sawFile(size);
+    document.hold(std::min<std::uint64_t>(size, wanted), fmt::format("buffer {}", buffer));
+  }
+  const auto problem = readStart(file, wanted, bytes);
   if (problem) document.fail(fmt::format("buffer {}: the file{} {}", buffer, quotedName(uri), *problem));
   if (isLfsPointer(asText(bytes))) {
     document.fail(fmt::format("buffer {}: the file{} is a git-lfs pointer, not the data (run git lfs pull)",
@@ -137,25 +161,31 @@ void readFromUri(Document& document, int buffer, const std::string& uri, std::ui
 
 /// The bytes of a buffer, at least its byteLength of them. Throws InputError.
 std::span<const std::byte> bufferData(Document& document, int buffer) {
-  const auto i = static_cast<std::size_t>(buffer);
-  const Json& description = document.json["buffers"][i];
+  const Json& description = document.json["buffers"][at(buffer)];
   const auto length = description["byteLength"].get<std::uint64_t>();
   std::span<const std::byte> data;
   if (!description.contains("uri")) {
     if (buffer != 0 || !document.hasBinary) document.fail(fmt::format("buffer {} has no data", buffer));
     data = document.binary;
   } else {
-    if (!document.bufferRead[i]) {
-      readFromUri(document, buffer, description["uri"].get_ref<const std::string&>(), length,
-                  document.bufferBytes[i]);
-      document.bufferRead[i] = true;
-    }
-    data = document.bufferBytes[i];
+    const auto& uri = description["uri"].get_ref<const std::string&>();
+    Document::UriData& read = document.buffers[uri];
+    if (!read.isRead) readFromUri(document, buffer, uri, std::max(read.length, length), read.bytes);
+    read.isRead = true;
+    data = read.bytes;
   }
   if (data.size() < length) {
     document.fail(fmt::format("buffer {} is too short: {} bytes of {}", buffer, data.size(), length));
   }
   return data.first(static_cast<std::size_t>(length));
+}
+
+std::uint64_t bytesOf(const std::vector<Node>& nodes) {
+  std::uint64_t bytes = nodes.capacity() * sizeof(Node);
+  for (const Node& node : nodes)
+    bytes += (node.local ? sizeof(glm::dmat4) + 16 : 0) + (node.rare ? sizeof(Node::Rare) + 64 : 0) +
+             4 * node.children.capacity() + (node.name.size() > 15 ? node.name.size() + 16 : 0);
+  return bytes;
 }
 
 }  // namespace
@@ -171,23 +201,49 @@ void Document::fail(std::string_view what) const {
   throw InputError(line);
 }
 
+void Document::hold(std::uint64_t bytes, std::string_view what) const {
+  named([&] { budget->hold(bytes, what); });
+}
+
+void Document::pass(std::uint64_t bytes, std::string_view what) const {
+  named([&] { budget->pass(bytes, what); });
+}
+
+void Document::promise(std::uint64_t bytes, std::string_view what) const {
+  named([&] { budget->promise(bytes, what); });
+}
+
+void Document::checkReads(double values, std::string_view what) const {
+  named([&] { budget->checkReads(values, what); });
+}
+
 void openDocument(Document& document, const std::filesystem::path& path, Notices& notices) {
   document.name = path.string();
   document.folder = path.parent_path();
   document.notices = &notices;
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  if (!unknown) {
+    document.budget->sawFile(size);
+    document.pass(size, "its bytes");
+  }
   const auto problem = readStart(path, std::numeric_limits<std::uint64_t>::max(), document.file);
   if (problem) document.fail(*problem);
-  const Json json = readContainer(document);
+  document.hold(document.file.size(), "its bytes");
+  Json json = readContainer(document);
   checkVersion(document, json);
-  document.json = checkedCopy(document, json);
-  checkExtensions(document, notices);
   const auto animations = json.find("animations");
-  if (animations != json.end() && animations->is_array() && !animations->empty()) {
-    notices.note("animations are not played: the rest pose is shown");
-  }
+  const bool isAnimated = animations != json.end() && animations->is_array() && !animations->empty();
+  document.json = checkedCopy(document, std::move(json), document.nodes);
+  checkExtensions(document, notices);
+  if (isAnimated) notices.note("animations are not played: the rest pose is shown");
+  document.hold(bytesOf(document.json) + bytesOf(document.nodes), "its description");
   readDescription(document);
-  document.bufferBytes.resize(child(document.json, "buffers").size());
-  document.bufferRead.resize(document.bufferBytes.size());
+  for (const Json& buffer : child(document.json, "buffers")) {
+    if (!buffer.contains("uri")) continue;
+    Document::UriData& data = document.buffers[buffer["uri"].get_ref<const std::string&>()];
+    data.length = std::max(data.length, buffer["byteLength"].get<std::uint64_t>());
+  }
 }
 
 std::span<const std::byte> viewData(Document& document, int view) {
@@ -224,6 +280,7 @@ std::filesystem::path fileOf(Document& document, std::string_view uri) {
     if (std::find(outside.begin(), outside.end(), file.path) == outside.end()) outside.push_back(file.path);
     if (document.confined) settleOutside(document);
   }
+  document.notices->files.push_back(file.path);
   return std::move(file.path);
 }
 

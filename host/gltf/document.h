@@ -11,9 +11,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "gltf/node.h"
+#include "scene/input_error.h"
+#include "scene/memory_budget.h"
 #include "scene/notices.h"
 
 namespace whittle::gltf {
@@ -32,18 +36,42 @@ struct Document {
   Bytes file;                         ///< the whole file; of a .glb, `binary` points into it
   std::span<const std::byte> binary;  ///< BIN chunk of a .glb
   bool hasBinary = false;
-  Json json;              ///< checked copy: extensions, extras, buffers and images are read from here
-  tinygltf::Model model;  ///< everything else
-  std::vector<Bytes> bufferBytes;  ///< filled by bufferData
-  std::vector<bool> bufferRead;
+  Json json;                ///< checked copy: extensions, extras, buffers and images are read from here
+  std::vector<Node> nodes;  ///< of the file, shown or not
+  tinygltf::Model model;    ///< everything else
+
+  /// What a URI of buffers holds: read on first use, once for all buffers that name it.
+  struct UriData {
+    Bytes bytes;
+    std::uint64_t length = 0;  ///< the most that one of them asks for
+    bool isRead = false;
+  };
+  std::unordered_map<std::string_view, UriData> buffers;  ///< by URI, as `json` has it
+
   Notices* notices = nullptr;                  ///< never null once the file is opened
+  MemoryBudget* budget = nullptr;              ///< never null
   bool confined = false;                       ///< files outside `folder` are not read
   std::vector<std::filesystem::path> outside;  ///< that were asked for, each once
 
   /// Throws InputError with one line, "NAME: what".
   [[noreturn]] void fail(std::string_view what) const;
+  /// As those of the budget, with an error that starts with the name.
+  void hold(std::uint64_t bytes, std::string_view what) const;
+  void pass(std::uint64_t bytes, std::string_view what) const;
+  void promise(std::uint64_t bytes, std::string_view what) const;
+  void checkReads(double values, std::string_view what) const;
   /// Of what the file goes on without.
   void warn(std::string what) const { notices->warn(std::move(what)); }
+
+ private:
+  template <class Ask>
+  void named(const Ask& ask) const {
+    try {
+      ask();
+    } catch (const InputError& e) {
+      fail(e.what());
+    }
+  }
 };
 
 /// A checked index of the file as C++ has it.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "gltf/accessor.h"
@@ -30,11 +31,14 @@ struct InstanceAttribute {
   }
 };
 
-InstanceAttribute readAttribute(Document& document, const Json& attributes, const char* name, int components,
-                                const std::string& label) {
-  const auto found = attributes.find(name);
+using Attributes = std::vector<std::pair<std::string, int>>;
+
+InstanceAttribute readAttribute(Document& document, const Attributes& attributes, const char* name,
+                                int components, const std::string& label) {
+  const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                  [name](const auto& attribute) { return attribute.first == name; });
   if (found == attributes.end()) return {};
-  const int accessor = found->get<int>();
+  const int accessor = found->second;
   const tinygltf::Accessor& a = accessorAt(document, accessor);
   const bool isLegal = componentCount(a) == components && a.type != TINYGLTF_TYPE_MAT2 &&
                        (isFloat(a) || (components == 4 && isSmallInteger(a) && a.normalized));
@@ -45,11 +49,10 @@ InstanceAttribute readAttribute(Document& document, const Json& attributes, cons
 }  // namespace
 
 std::vector<glm::dmat4> instanceTransforms(Document& document, int node, const glm::dmat4& nodeToWorld) {
-  const Json* instancing =
-      extension(document.json["nodes"][static_cast<std::size_t>(node)], "EXT_mesh_gpu_instancing");
-  if (!instancing) return {nodeToWorld};
+  const Node& n = document.nodes[at(node)];
+  if (!n.rare || !n.rare->instancing) return {nodeToWorld};
   const std::string label = nodeLabel(document, node);
-  const Json& attributes = (*instancing)["attributes"];
+  const Attributes& attributes = *n.rare->instancing;
   const auto translation = readAttribute(document, attributes, "TRANSLATION", 3, label);
   const auto rotation = readAttribute(document, attributes, "ROTATION", 4, label);
   const auto scale = readAttribute(document, attributes, "SCALE", 3, label);

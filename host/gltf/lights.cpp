@@ -59,12 +59,6 @@ bool readLens(const tinygltf::Camera& lens, Camera& camera) {
   return camera.yfov > 0.0F && lens.perspective.yfov < std::numbers::pi;
 }
 
-bool castsShadows(const Json& extras) {
-  if (!extras.is_object()) return true;
-  const auto found = extras.find("castsShadows");
-  return found == extras.end() || !found->is_boolean() || found->get<bool>();
-}
-
 void readCone(const Json& light, const std::string& label, Light& out, Notices& notices) {
   const Json& spot = child(light, "spot");
   const double outer = number(spot, "outerConeAngle", std::numbers::pi / 4);
@@ -115,7 +109,7 @@ std::optional<Light> readLight(const Json& json, std::size_t index, Notices& not
       notices.warn(fmt::format("{}: its range must be positive; it reaches everywhere", label));
   }
   if (typeOf(light.kind).hasCone) readCone(json, label, light, notices);
-  light.castsShadows = castsShadows(child(json, "extras"));
+  light.castsShadows = leavesShadows(child(json, "extras"));
   return light;
 }
 
@@ -124,7 +118,7 @@ std::optional<Light> readLight(const Json& json, std::size_t index, Notices& not
 void readCameras(const Document& document, const Hierarchy& hierarchy, Scene& scene, Notices& notices) {
   std::vector<std::pair<int, Camera>> found;
   for (const int node : hierarchy.shown) {
-    const int index = document.model.nodes[at(node)].camera;
+    const int index = document.nodes[at(node)].camera;
     if (index < 0) continue;
     Camera camera;
     const tinygltf::Camera& lens = document.model.cameras[at(index)];
@@ -134,7 +128,7 @@ void readCameras(const Document& document, const Hierarchy& hierarchy, Scene& sc
                       nodeLabel(document, node)));
       continue;
     }
-    camera.node = document.model.nodes[at(node)].name;
+    camera.node = document.nodes[at(node)].name;
     camera.name = lens.name.empty() ? camera.node : lens.name;
     found.emplace_back(index, std::move(camera));
   }
@@ -147,10 +141,8 @@ void readLights(const Document& document, const Hierarchy& hierarchy, Scene& sce
   const Json* lights = extension(document.json, "KHR_lights_punctual");
   if (!lights) return;
   for (const int node : hierarchy.shown) {
-    const Json& nodeJson = document.json["nodes"][at(node)];
-    const Json* reference = extension(nodeJson, "KHR_lights_punctual");
-    if (!reference) continue;
-    const auto index = (*reference)["light"].get<std::size_t>();
+    if (document.nodes[at(node)].light < 0) continue;
+    const auto index = static_cast<std::size_t>(document.nodes[at(node)].light);
     auto light = readLight((*lights)["lights"][index], index, notices);
     if (!light) continue;
     const glm::dmat4& toWorld = hierarchy.toWorld[at(node)];
@@ -162,8 +154,8 @@ void readLights(const Document& document, const Hierarchy& hierarchy, Scene& sce
     }
     light->position = glm::vec3(glm::dvec3(toWorld[3]));
     if (direction) light->direction = glm::vec3(*direction);
-    light->castsShadows = light->castsShadows && castsShadows(child(nodeJson, "extras"));
-    if (light->name.empty()) light->name = document.model.nodes[at(node)].name;
+    light->castsShadows = light->castsShadows && document.nodes[at(node)].castsShadows();
+    if (light->name.empty()) light->name = document.nodes[at(node)].name;
     scene.lights.push_back(std::move(*light));
   }
 }

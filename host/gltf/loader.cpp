@@ -9,11 +9,13 @@
 
 #include "gltf/bake.h"
 #include "gltf/document.h"
+#include "gltf/geometry_sums.h"
 #include "gltf/instances.h"
 #include "gltf/lights.h"
 #include "gltf/material.h"
 #include "gltf/mesh.h"
 #include "gltf/nodes.h"
+#include "scene/machine_memory.h"
 
 namespace whittle {
 
@@ -25,7 +27,7 @@ namespace {
 std::set<int> usedMaterials(const Document& document, const Hierarchy& hierarchy) {
   std::set<int> used;
   for (const int node : hierarchy.shown) {
-    const int mesh = document.model.nodes[at(node)].mesh;
+    const int mesh = document.nodes[at(node)].mesh;
     if (mesh < 0) continue;
     for (const tinygltf::Primitive& p : document.model.meshes[at(mesh)].primitives) {
       if (isDrawable(p)) used.insert(p.material);
@@ -37,23 +39,23 @@ std::set<int> usedMaterials(const Document& document, const Hierarchy& hierarchy
 /// Draws the meshes of a scene's nodes into its arrays.
 class MeshLoader {
  public:
-  MeshLoader(Document& document, const Hierarchy& hierarchy, std::vector<int> materials, Scene& scene,
-             Notices& notices)
+  MeshLoader(Document& document, const Hierarchy& hierarchy, const GeometrySums& sums,
+             std::vector<int> materials, Scene& scene, Notices& notices)
       : document_(document),
         hierarchy_(hierarchy),
         materials_(std::move(materials)),
         scene_(scene),
         notices_(notices),
-        baker_(document, scene) {
+        baker_(document, sums, scene) {
     for (const int node : hierarchy.shown) {
-      const int mesh = document.model.nodes[at(node)].mesh;
+      const int mesh = document.nodes[at(node)].mesh;
       if (mesh >= 0) ++uses_[mesh];
     }
   }
 
   void addAll() {
     for (const int node : hierarchy_.shown) {
-      if (document_.model.nodes[at(node)].mesh >= 0) addNode(node);
+      if (document_.nodes[at(node)].mesh >= 0) addNode(node);
     }
     baker_.finish(notices_);
     if (notDrawn_ > 0) {
@@ -64,7 +66,7 @@ class MeshLoader {
 
  private:
   void addNode(int node) {
-    const tinygltf::Node& n = document_.model.nodes[at(node)];
+    const Node& n = document_.nodes[at(node)];
     const auto& primitives = document_.model.meshes[at(n.mesh)].primitives;
     const std::string label = nodeLabel(document_, node);
     const std::vector<glm::dmat4> joints =
@@ -90,9 +92,9 @@ class MeshLoader {
 
   /// A mesh that several nodes show unchanged is read once and kept; others are read into `storage`.
   const LocalMesh& localMesh(int node, int primitive, std::uint32_t material, LocalMesh& storage) {
-    const tinygltf::Node& n = document_.model.nodes[at(node)];
-    const auto& weights = n.weights.empty() ? document_.model.meshes[at(n.mesh)].weights : n.weights;
-    const bool isShared = uses_[n.mesh] > 1 && n.weights.empty();
+    const Node& n = document_.nodes[at(node)];
+    const auto& weights = n.weights().empty() ? document_.model.meshes[at(n.mesh)].weights : n.weights();
+    const bool isShared = uses_[n.mesh] > 1 && n.weights().empty();
     const auto key = std::make_tuple(n.mesh, primitive, n.skin >= 0);
     if (isShared) {
       if (const auto found = kept_.find(key); found != kept_.end()) return found->second;
@@ -134,10 +136,13 @@ void readBackground(const Document& document, int sceneIndex, Scene& scene, Noti
 }
 
 void load(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
-  const Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
+  Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
+  const GeometrySums sums = holdGeometry(document, hierarchy, options.later.triangleBytes);
+  settlePlace(document, hierarchy, notices);
   scene.origin = hierarchy.origin;
-  std::vector<int> materials = readMaterials(document, usedMaterials(document, hierarchy), scene, notices);
-  MeshLoader(document, hierarchy, std::move(materials), scene, notices).addAll();
+  std::vector<int> materials =
+      readMaterials(document, usedMaterials(document, hierarchy), options.later.texelBytes, scene, notices);
+  MeshLoader(document, hierarchy, sums, std::move(materials), scene, notices).addAll();
   readCameras(document, hierarchy, scene, notices);
   readLights(document, hierarchy, scene, notices);
   readBackground(document, hierarchy.scene, scene, notices);
@@ -147,11 +152,15 @@ void load(Document& document, const LoadOptions& options, Scene& scene, Notices&
 
 }  // namespace gltf
 
-Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
+namespace {
+
+Scene loadFile(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
   Scene scene;
   scene.file = path.string();
   gltf::Document document;
   document.confined = options.confined;
+  MemoryBudget own(options.memory ? MemoryLimit{} : memoryLimitOfMachine());
+  document.budget = options.memory ? options.memory : &own;
   try {
     gltf::openDocument(document, path, notices);
     gltf::load(document, options, scene, notices);
@@ -163,6 +172,14 @@ Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, No
   } catch (const std::length_error&) {
     document.fail("needs more memory than there is");
   }
+  return scene;
+}
+
+}  // namespace
+
+Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
+  Scene scene = loadFile(path, options, notices);
+  returnFreedMemory();  // of the document
   addDefaults(scene, notices, options);
   return scene;
 }

@@ -6,10 +6,17 @@
 #include <string>
 
 #include "scene/camera.h"
+#include "scene/memory_budget.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 
 namespace whittle {
+
+/// What a scene will cost whoever asked for it, beside its own arrays: a file is refused for that as well.
+struct LaterCosts {
+  std::uint64_t triangleBytes = 0;
+  std::uint64_t texelBytes = 0;
+};
 
 struct LoadOptions {
   std::optional<std::string> sceneName;  ///< name or index; default: the file's default scene, else the first
@@ -22,6 +29,8 @@ struct LoadOptions {
   bool confined = false;                    ///< refuse a file that asks for others outside its folder
   /// Width over height of the picture that an added camera frames the scene for; 0: 16:9.
   double aspect = 0.0;
+  MemoryBudget* memory = nullptr;  ///< what it may take; null: what the machine has
+  LaterCosts later = {};
 };
 
 /// Reads `path`. Throws InputError with one line if it cannot be used; says in `notices` what was ignored or

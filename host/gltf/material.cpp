@@ -25,17 +25,15 @@ std::string materialLabel(const Json& m, std::size_t i) {
   return fmt::format("material {}{}", i, quotedName(m.value("name", "")));
 }
 
-void readBase(const tinygltf::Material& m, const Json& json, TextureReader& textures, Material& out) {
-  const tinygltf::PbrMetallicRoughness& pbr = m.pbrMetallicRoughness;
-  for (int i = 0; i < 4; ++i)
-    out.baseColor[i] = static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
-  out.metallic = static_cast<float>(pbr.metallicFactor);
-  out.roughness = static_cast<float>(pbr.roughnessFactor);
-  for (int i = 0; i < 3; ++i)
-    out.emission[i] = static_cast<float>(m.emissiveFactor[static_cast<std::size_t>(i)]);
-  out.alphaCutoff = static_cast<float>(m.alphaCutoff);
-  out.doubleSided = m.doubleSided;
+void readBase(const Json& json, TextureReader& textures, Material& out) {
   const Json& pbrJson = child(json, "pbrMetallicRoughness");
+  const Json& base = child(pbrJson, "baseColorFactor");
+  for (int i = 0; i < 4 && base.size() == 4; ++i) out.baseColor[i] = base[at(i)].get<float>();
+  out.metallic = factor(pbrJson, "metallicFactor", 1.0);
+  out.roughness = factor(pbrJson, "roughnessFactor", 1.0);
+  out.emission = colour(json, "emissiveFactor", 0.0F);
+  out.alphaCutoff = factor(json, "alphaCutoff", 0.5);
+  out.doubleSided = json.value("doubleSided", false);
   out.baseColorTexture = textures.slot(pbrJson, "baseColorTexture");
   out.metallicRoughnessTexture = textures.slot(pbrJson, "metallicRoughnessTexture");
   out.normalTexture = textures.slot(json, "normalTexture");
@@ -112,10 +110,12 @@ bool transmitsRoughly(const Material& m) { return m.transmission > 0.0F && m.rou
 
 }  // namespace
 
-std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, Scene& scene,
-                               Notices& notices) {
-  std::vector<int> indices(document.model.materials.size() + 1, -1);
-  TextureReader textures(document, scene, notices);
+std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, std::uint64_t texelBytes,
+                               Scene& scene, Notices& notices) {
+  std::vector<int> indices(child(document.json, "materials").size() + 1, -1);
+  ImageSources sources(document);
+  sources.hold(wanted, texelBytes);
+  TextureReader textures(document, sources, scene, notices);
   int rough = 0;
   for (const int index : wanted) {
     if (index < 0) continue;
@@ -123,9 +123,9 @@ std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, 
     const Json& json = document.json["materials"][i];
     const std::string label = materialLabel(json, i);
     Material material;
-    material.name = document.model.materials[i].name;
-    material.alphaMode = alphaModeOf(document.model.materials[i].alphaMode, label, notices);
-    readBase(document.model.materials[i], json, textures, material);
+    material.name = json.value("name", "");
+    material.alphaMode = alphaModeOf(json.value("alphaMode", "OPAQUE"), label, notices);
+    readBase(json, textures, material);
     readExtensions(json, label, textures, material, notices);
     warnOfRange(material, label, notices);
     rough += transmitsRoughly(material);

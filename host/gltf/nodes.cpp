@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <iterator>
 
 #include "gltf/origin.h"
@@ -17,24 +16,8 @@ namespace {
 
 using Parents = std::vector<int>;
 
-glm::dvec3 vec3Or(const std::vector<double>& v, double fallback) {
-  return v.size() == 3 ? glm::dvec3(v[0], v[1], v[2]) : glm::dvec3(fallback);
-}
-
-glm::dmat4 localTransform(const tinygltf::Node& node) {
-  if (node.matrix.size() == 16) {
-    glm::dmat4 m;
-    for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
-    return m;
-  }
-  const auto& r = node.rotation;
-  return composed(vec3Or(node.translation, 0.0),
-                  r.size() == 4 ? glm::dvec4(r[0], r[1], r[2], r[3]) : glm::dvec4(0, 0, 0, 1),
-                  vec3Or(node.scale, 1.0));
-}
-
 Parents findParents(const Document& document) {
-  const auto& nodes = document.model.nodes;
+  const auto& nodes = document.nodes;
   Parents parents(nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (const int c : nodes[i].children) {
@@ -48,10 +31,18 @@ Parents findParents(const Document& document) {
   return parents;
 }
 
+std::vector<int> rootsOf(const Parents& parents) {
+  std::vector<int> roots;
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    if (parents[i] < 0) roots.push_back(static_cast<int>(i));
+  }
+  return roots;
+}
+
 /// Depth first from `roots`, children in file order. With one parent each no node is
 /// met twice below distinct roots.
 template <class Visit>
-void walk(const std::vector<tinygltf::Node>& nodes, const std::vector<int>& roots, Visit visit) {
+void walk(const std::vector<Node>& nodes, const std::vector<int>& roots, Visit visit) {
   std::vector<int> stack(roots.rbegin(), roots.rend());
   while (!stack.empty()) {
     const int node = stack.back();
@@ -78,14 +69,14 @@ int nodeOfCycle(const Parents& parents) {
 
 /// `origin` is taken off the roots, before anything is composed: what lies there comes out as if its file had
 /// placed it at 0.
-std::vector<glm::dmat4> globalTransforms(const Document& document, const Parents& parents,
-                                         const std::vector<int>& roots, const glm::dvec3& origin) {
-  const auto& nodes = document.model.nodes;
-  std::vector<glm::dmat4> toWorld(nodes.size(), glm::dmat4(1.0));
+void globalTransforms(const Document& document, const Parents& parents, const std::vector<int>& roots,
+                      const glm::dvec3& origin, std::vector<glm::dmat4>& toWorld) {
+  const auto& nodes = document.nodes;
+  toWorld.assign(nodes.size(), glm::dmat4(1.0));
   std::size_t reached = 0;
   walk(nodes, roots, [&](int node) {
     const auto i = static_cast<std::size_t>(node);
-    glm::dmat4 local = localTransform(nodes[i]);
+    glm::dmat4 local = nodes[i].local ? *nodes[i].local : glm::dmat4(1.0);
     if (parents[i] < 0) local[3] -= glm::dvec4(origin, 0.0);
     toWorld[i] = parents[i] < 0 ? local : toWorld[static_cast<std::size_t>(parents[i])] * local;
     ++reached;
@@ -95,7 +86,6 @@ std::vector<glm::dmat4> globalTransforms(const Document& document, const Parents
     document.fail(fmt::format("{} is its own ancestor: nodes must form trees",
                               nodeLabel(document, nodeOfCycle(parents))));
   }
-  return toWorld;
 }
 
 int sceneCalled(const Document& document, const std::string& wanted) {
@@ -117,7 +107,7 @@ int chooseScene(const Document& document, const std::optional<std::string>& want
   if (wanted) return sceneCalled(document, *wanted);
   if (document.model.defaultScene >= 0) return document.model.defaultScene;
   if (document.model.scenes.empty()) {
-    if (!document.model.nodes.empty()) notices.note("the file has no scene: all its nodes are shown");
+    if (!document.nodes.empty()) notices.note("the file has no scene: all its nodes are shown");
     return -1;
   }
   if (document.model.scenes.size() > 1) notices.note("the file names no default scene: the first is shown");
@@ -144,7 +134,7 @@ std::vector<int> distinctRoots(const Document& document, const Parents& parents,
       fmt::format("the scene lists {}, a child of node {}: it is drawn once, in its place below that{}",
                   nodeLabel(document, children[0]), parents[at(children[0])], more));
   std::vector<bool> comesAlong(parents.size());
-  walk(document.model.nodes, allRoots, [&](int node) {
+  walk(document.nodes, allRoots, [&](int node) {
     const int parent = parents[at(node)];
     comesAlong[at(node)] = parent >= 0 && (isListed[at(parent)] || comesAlong[at(parent)]);
   });
@@ -156,44 +146,35 @@ std::vector<int> distinctRoots(const Document& document, const Parents& parents,
 
 }  // namespace
 
-glm::dmat4 composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale) {
-  const double length = glm::length(rotation);
-  const glm::dvec4 q = length > 0.0 && std::isfinite(length) ? rotation / length : glm::dvec4(0, 0, 0, 1);
-  const double x = q.x, y = q.y, z = q.z, w = q.w;
-  glm::dmat4 m(1.0);
-  m[0] = glm::dvec4(1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y), 0) * scale.x;
-  m[1] = glm::dvec4(2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x), 0) * scale.y;
-  m[2] = glm::dvec4(2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y), 0) * scale.z;
-  m[3] = glm::dvec4(translation, 1.0);
-  return m;
-}
-
 std::string nodeLabel(const Document& document, int node) {
-  return fmt::format("node {}{}", node,
-                     quotedName(document.model.nodes[static_cast<std::size_t>(node)].name));
+  return fmt::format("node {}{}", node, quotedName(document.nodes[static_cast<std::size_t>(node)].name));
 }
 
 Hierarchy readHierarchy(Document& document, const std::optional<std::string>& sceneName, Notices& notices) {
   const auto& model = document.model;
   const Parents parents = findParents(document);
-  std::vector<int> allRoots;
-  for (std::size_t i = 0; i < parents.size(); ++i) {
-    if (parents[i] < 0) allRoots.push_back(static_cast<int>(i));
-  }
+  const std::vector<int> allRoots = rootsOf(parents);
+  document.hold((sizeof(glm::dmat4) + 4 * sizeof(int)) * parents.size(),
+                fmt::format("its {} nodes", parents.size()));
   Hierarchy hierarchy;
-  hierarchy.toWorld = globalTransforms(document, parents, allRoots, glm::dvec3(0.0));
+  globalTransforms(document, parents, allRoots, glm::dvec3(0.0), hierarchy.toWorld);
   hierarchy.scene = chooseScene(document, sceneName, notices);
   const std::vector<int> roots =
       hierarchy.scene < 0
           ? allRoots
           : distinctRoots(document, parents, allRoots, model.scenes[at(hierarchy.scene)].nodes, notices);
-  walk(model.nodes, roots, [&](int node) { hierarchy.shown.push_back(node); });
+  walk(document.nodes, roots, [&](int node) { hierarchy.shown.push_back(node); });
+  return hierarchy;
+}
+
+void settlePlace(Document& document, Hierarchy& hierarchy, Notices& notices) {
   Extents extents(document);
   hierarchy.origin = originFor(document, hierarchy, extents);
-  if (hierarchy.origin != glm::dvec3(0.0))
-    hierarchy.toWorld = globalTransforms(document, parents, allRoots, hierarchy.origin);
+  if (hierarchy.origin != glm::dvec3(0.0)) {
+    const Parents parents = findParents(document);
+    globalTransforms(document, parents, rootsOf(parents), hierarchy.origin, hierarchy.toWorld);
+  }
   warnOfCoarsePositions(document, hierarchy, extents, notices);
-  return hierarchy;
 }
 
 }  // namespace whittle::gltf

@@ -17,11 +17,11 @@ struct Hierarchy {
   glm::dvec3 origin{0.0};           ///< metres; what was taken off toWorld, see Scene::origin
 };
 
-/// Throws InputError for cycles, for nodes with two parents and for a scene that does not exist.
+/// Throws InputError for cycles, for nodes with two parents and for a scene that does not exist. Its origin
+/// is still 0.
 Hierarchy readHierarchy(Document& document, const std::optional<std::string>& sceneName, Notices& notices);
-
-/// T · R · S; the quaternion (x, y, z, w) is normalised first, and one of length 0 turns nothing.
-glm::dmat4 composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);
+/// Chooses the origin and takes it off; warns of meshes far from their own. Reads all positions.
+void settlePlace(Document& document, Hierarchy& hierarchy, Notices& notices);
 
 /// `node 3 "name"` for messages.
 std::string nodeLabel(const Document& document, int node);

@@ -18,9 +18,9 @@ namespace {
 Extent extentOf(const Document& document, const Hierarchy& hierarchy, Extents& extents) {
   Extent all;
   for (const int node : hierarchy.shown) {
-    const int mesh = document.model.nodes[at(node)].mesh;
+    const int mesh = document.nodes[at(node)].mesh;
     if (mesh < 0) continue;
-    const int skin = document.model.nodes[at(node)].skin;
+    const int skin = document.nodes[at(node)].skin;
     if (skin >= 0) {  // lies where its joints do, not where its node does
       for (const int joint : document.model.skins[at(skin)].joints)
         all.grow(glm::dvec3(hierarchy.toWorld[at(joint)][3]));
@@ -98,7 +98,7 @@ void warnOfCoarsePositions(const Document& document, const Hierarchy& hierarchy,
   // by three degrees: from there on one sees it.
   constexpr double kVisible = 1e-4;
   std::set<int> meshes;
-  for (const int node : hierarchy.shown) meshes.insert(document.model.nodes[at(node)].mesh);
+  for (const int node : hierarchy.shown) meshes.insert(document.nodes[at(node)].mesh);
   Coarseness worst;
   int others = -1;
   for (const int mesh : meshes) {

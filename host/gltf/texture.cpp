@@ -48,8 +48,9 @@ Image readPicture(const std::filesystem::path& path) {
 
 }  // namespace
 
-TextureReader::TextureReader(Document& document, Scene& scene, Notices& notices)
+TextureReader::TextureReader(Document& document, ImageSources& sources, Scene& scene, Notices& notices)
     : document_(document),
+      sources_(sources),
       scene_(scene),
       notices_(notices),
       images_(child(document.json, "images").size(), kUnread),
@@ -98,7 +99,8 @@ int TextureReader::imageOf(std::size_t texture) {
   return -1;
 }
 
-int TextureReader::decode(std::size_t image) {
+int TextureReader::decode(std::size_t asked) {
+  const std::size_t image = sources_.firstAlike(asked);
   if (images_[image] != kUnread) return images_[image];
   images_[image] = -1;
   try {
@@ -137,7 +139,7 @@ Image TextureReader::read(std::size_t image) {
   }
   if (isAbsoluteUri(uri))
     throw InputError(fmt::format("it is at{}; Whittle reads local files only", quotedName(uri)));
-  Image read = readPicture(fileOf(document_, uri));
+  Image read = readPicture(sources_.file(image));
   read.name = uri;
   return read;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gltf/document.h"
+#include "gltf/image_sources.h"
 #include "scene/scene.h"
 
 namespace whittle::gltf {
@@ -12,7 +13,7 @@ namespace whittle::gltf {
 /// warning and leaves its slots empty.
 class TextureReader {
  public:
-  TextureReader(Document& document, Scene& scene, Notices& notices);
+  TextureReader(Document& document, ImageSources& sources, Scene& scene, Notices& notices);
 
   /// The slot that the textureInfo under `key` of `owner` describes; an empty slot where there is none.
   TextureSlot slot(const Json& owner, const char* key);
@@ -22,14 +23,15 @@ class TextureReader {
 
  private:
   int imageOf(std::size_t texture);
-  int decode(std::size_t image);
+  int decode(std::size_t asked);
   Image read(std::size_t image);
 
   static constexpr int kUnread = -2;
   Document& document_;
+  ImageSources& sources_;
   Scene& scene_;
   Notices& notices_;
-  std::vector<int> images_;       ///< by glTF image: index into Scene::images, -1: unusable, kUnread
+  std::vector<int> images_;  ///< by first alike glTF image: index into Scene::images, -1: unusable, kUnread
   std::vector<bool> sourceless_;  ///< by glTF texture: already warned about
 };
 

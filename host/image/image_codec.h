@@ -13,6 +13,7 @@ class ImageCodec {
   virtual ~ImageCodec() = default;
   virtual Image decodeImage(std::span<const std::byte> bytes, const std::string& name) const = 0;
   virtual Image readImage(const std::filesystem::path& path) const = 0;
+  virtual ImageHeader readHeader(const std::filesystem::path& path) const = 0;
   virtual FloatImage readFloatImage(const std::filesystem::path& path) const = 0;
   virtual void writeExr(const std::filesystem::path& path, const FloatImage& image,
                         const ImageMetadata& metadata,

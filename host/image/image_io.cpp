@@ -114,6 +114,11 @@ Image readImage(const fs::path& path) {
   return codec().readImage(path);
 }
 
+ImageHeader readImageHeader(const fs::path& path) {
+  refuseStreams(path);
+  return codec().readHeader(path);
+}
+
 FloatImage readFloatImage(const fs::path& path) {
   refuseStreams(path);
   if (const auto bytes = radianceBytes(path)) return decodeRadiance(*bytes, path.string());

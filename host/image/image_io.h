@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "image/image_header.h"
 #include "scene/scene.h"
 
 namespace whittle {
@@ -31,6 +32,8 @@ void loadImageCodec();
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name);
 /// Reads an image file likewise. Throws InputError.
 Image readImage(const std::filesystem::path& path);
+/// The size of an image file of any format that can be read. Throws InputError.
+ImageHeader readImageHeader(const std::filesystem::path& path);
 /// Reads .exr, .hdr, .png, … as linear floats, three channels or a grey one; alpha is left out.
 /// Channels are chosen by name: R, G and B of the unnamed layer or of the only one that has them, else Y,
 /// else X, Y and Z of a layer, else the only channel. OpenEXR: the picture is the display window, black where

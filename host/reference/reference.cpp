@@ -72,6 +72,11 @@ ReferenceResult render(const Scene& scene, const Settings& settings,
 
 }  // namespace
 
+std::uint64_t referencePictureBytes(const Settings& settings) {
+  constexpr std::uint64_t kPixel = 5 * sizeof(float) + 12;  // radiance, triangle, distance; what encodes them
+  return kPixel * static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+}
+
 ReferenceResult renderReference(const Scene& scene, const Settings& settings,
                                 const std::function<void(int, int)>& progress) {
   const int threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();

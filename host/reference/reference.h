@@ -29,6 +29,10 @@ struct ReferenceResult {
   std::uint64_t nonFinite = 0;  ///< samples that were not finite and count as 0 radiance
 };
 
+/// What the search takes for each triangle, and the result for the whole picture.
+inline constexpr std::uint64_t kReferenceTriangleBytes = 200;
+std::uint64_t referencePictureBytes(const Settings& settings);
+
 /// Renders `scene` with the given settings (those that apply). Multi-threaded over rows; `progress(done, of)`
 /// is called now and then from one thread at a time, may be empty. Throws InputError for an unknown camera.
 ReferenceResult renderReference(const Scene& scene, const Settings& settings,

@@ -41,6 +41,7 @@ RenderPlan planRender(const Scene& scene, const Settings& settings) {
   memory.queues.reserve(usualQueues(decisions.features));
 
   RenderPlan plan;
+  plan.treeNodes = tree.nodes.size();
   memory.report(plan.buffers);
   picture.report(plan.buffers);
   plan.everythingBytes = picture.order.bytes + picture.film.bytes + picture.aovs.bytes +

@@ -17,6 +17,7 @@ struct RenderPlan {
   PrunedScene pruned;                 ///< what goes to the device
   std::vector<std::string> stages;    ///< kernels, in the order of their first launch
   std::vector<BufferStats> buffers;   ///< as allocated: real sizes
+  std::uint64_t treeNodes = 0;        ///< of the two-wide tree
   std::uint64_t everythingBytes = 0;  ///< of all buffers with settings.keepAllFeatures
   DeviceInfo device;
   Settings settings;  ///< as a render would use them

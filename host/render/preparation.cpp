@@ -6,8 +6,10 @@
 #include <algorithm>
 
 #include "cl/device.h"
+#include "scene/byte_counts.h"
 #include "scene/camera.h"
 #include "scene/input_error.h"
+#include "scene/machine_memory.h"
 #include "wavefront/camera_to_device.h"
 #include "wavefront/film.h"
 #include "wavefront/pixel_order.h"
@@ -69,9 +71,9 @@ PictureBuffers allocatePicture(Compute& compute, const Settings& settings, const
         compute.allocate("passBlocks", SampleCounts(pixels).blocks() * sizeof(std::uint32_t));
   }
   if (memory == Compute::Memory::SizesOnly) return picture;
-  picture.orderTable =
-      makePixelOrder(static_cast<std::uint32_t>(settings.width), static_cast<std::uint32_t>(settings.height));
-  compute.write(picture.order, picture.orderTable.data());
+  compute.write(picture.order, makePixelOrder(static_cast<std::uint32_t>(settings.width),
+                                              static_cast<std::uint32_t>(settings.height))
+                                   .data());
   compute.fillZero(picture.film);
   return picture;
 }
@@ -87,7 +89,10 @@ TriTree buildTree(const Scene& scene, const Decisions& decisions) {
     std::vector<glm::uvec3> corners;
     corners.reserve(scene.triangles.size());
     for (const auto& t : scene.triangles) corners.emplace_back(t.v0, t.v1, t.v2);
-    return buildTriTree(scene.positions, corners);
+    tree = buildTriTree(scene.positions, corners);
+    corners = {};
+    returnFreedMemory();  // of its subtrees
+    return tree;
   }
   for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) tree.order.push_back(i);
   return tree;

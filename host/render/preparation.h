@@ -33,9 +33,8 @@ struct Decisions {
 /// Throws InputError: no such camera, a work-group that the device cannot have.
 Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo& device);
 
-/// The picture on the device, and the order of its pixels on both sides.
+/// The picture on the device, and the order of its pixels.
 struct PictureBuffers {
-  std::vector<std::uint32_t> orderTable;  ///< y << 16 | x; empty if only sizes are asked for
   Buffer order, film, aovs;
   Buffer passOrder, passBlocks;  ///< with Settings::adaptive
 

@@ -168,9 +168,9 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
                              static_cast<std::uint32_t>(mostHits(decisions.features, settings)),
                              decisions.compactChunk};
   Wavefront wavefront(compute, stages, memory.queues, setup, picture.film, picture.aovs);
-  SamplingLoop loop(
-      compute, wavefront, settings, hooks,
-      FilmBuffers{picture.orderTable, picture.order, picture.film, picture.passOrder, picture.passBlocks});
+  SamplingLoop loop(compute, wavefront, settings, hooks,
+                    FilmBuffers{static_cast<std::size_t>(settings.width) * settings.height, picture.order,
+                                picture.film, picture.passOrder, picture.passBlocks});
   loop.run();
   log.end("render", rendering);
 

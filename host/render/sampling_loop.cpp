@@ -42,7 +42,7 @@ SamplingLoop::SamplingLoop(Compute& compute, Wavefront& wavefront, const Setting
       settings_(settings),
       hooks_(hooks),
       buffers_(buffers),
-      counts_(buffers.orderTable.size()) {}
+      counts_(buffers.pixels) {}
 
 bool SamplingLoop::looks() const {
   return settings_.timeLimit > 0.0 || hasErrorTarget(settings_) || settings_.adaptive || hooks_.reference;
@@ -108,9 +108,10 @@ bool SamplingLoop::tracePass(const SamplePass& pass) {
     return traceWith(pass, {buffers_.order, none, static_cast<std::uint32_t>(counts_.pixels()),
                             pass.firstSample, pass.samples});
   }
-  std::vector<std::uint32_t> order;
+  std::vector<std::uint32_t> all(counts_.pixels()), order;
+  compute_.read(buffers_.order, 0, buffers_.order.bytes, all.data());
   for (const std::uint32_t block : pass.blocks) {
-    const auto first = buffers_.orderTable.begin() + static_cast<std::ptrdiff_t>(block) * FILM_BLOCK;
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(block) * FILM_BLOCK;
     order.insert(order.end(), first, first + counts_.pixelsOf(block));
   }
   compute_.write(buffers_.passOrder, order.data(), order.size() * sizeof(std::uint32_t));
@@ -123,7 +124,6 @@ bool SamplingLoop::tracePass(const SamplePass& pass) {
 bool SamplingLoop::traceWith(const SamplePass& pass, const TracePass& launches) {
   const double endedBefore = endedInAll(wavefront_.tally());
   const KeepGoing ask{[this](double samples, bool between) { return keepGoing(samples, between); }};
-  film_.reset();
   const std::uint32_t pixels = wavefront_.trace(launches, ask);
   const std::size_t blocks = (pixels + FILM_BLOCK - 1) / FILM_BLOCK;
   for (std::size_t b = 0; b < blocks; ++b) counts_.add(pass.blocks[b], pass.samples);
@@ -182,29 +182,45 @@ void SamplingLoop::look() {
   const bool estimates = counts_.least() >= 2;
   if (!estimates && !hooks_.reference) return;
   const double now = seconds_ > 0.0 ? seconds_ : elapsed();
-  const FilmSums& sums = film();
-  ErrorPoint point{now, counts_.mean(), 0.0, {}, meanOfChannels(sums, counts_)};
-  if (estimates) {
-    variances_ = blockVariances(sums, counts_);
-    point.estimate = estimateError(variances_, counts_);
-  }
-  if (hooks_.reference) point.rmse = rootMeanSquare(resolveFilm(sums, counts_), *hooks_.reference);
+  ErrorPoint point{now, counts_.mean(), 0.0, {}, 0.0};
+  double total = 0.0;
+  if (estimates) variances_.assign(counts_.blocks(), 0.0);
+  eachPart([&](const FilmPart& part) {
+    addRadiance(part, counts_, total);
+    if (estimates) addBlockVariances(part, counts_, variances_);
+  });
+  point.mean = total / (3.0 * static_cast<double>(counts_.pixels()));
+  if (estimates) point.estimate = estimateError(variances_, counts_);
+  if (hooks_.reference) point.rmse = rootMeanSquare(picture(), *hooks_.reference);
   error_.push_back(point);
 }
 
-const FilmSums& SamplingLoop::film() {
-  if (!film_) {
-    film_.emplace(FilmSums{settings_.width, settings_.height, buffers_.orderTable, {}});
-    film_->planes.resize(buffers_.film.bytes / sizeof(float));
-    compute_.read(buffers_.film, 0, buffers_.film.bytes, film_->planes.data());
+template <class Visit>
+void SamplingLoop::eachPart(const Visit& visit) {
+  constexpr std::size_t kPixels = std::size_t{1024} * FILM_BLOCK;
+  const std::size_t all = counts_.pixels(), planes = buffers_.film.bytes / sizeof(float) / all;
+  FilmPart part;
+  for (; part.first < all; part.first += kPixels) {
+    const std::size_t pixels = std::min(kPixels, all - part.first), bytes = pixels * sizeof(float);
+    part.pixelOrder.resize(pixels);
+    part.planes.resize(planes * pixels);
+    compute_.read(buffers_.order, part.first * sizeof(float), bytes, part.pixelOrder.data());
+    for (std::size_t i = 0; i < planes; ++i)
+      compute_.read(buffers_.film, (i * all + part.first) * sizeof(float), bytes, &part.planes[i * pixels]);
+    visit(part);
   }
-  return *film_;
 }
 
-FloatImage SamplingLoop::picture() { return resolveFilm(film(), counts_); }
+FloatImage SamplingLoop::picture() {
+  FloatImage image{settings_.width, settings_.height, 3, std::vector<float>(3 * counts_.pixels())};
+  eachPart([&](const FilmPart& part) { resolveFilm(part, counts_, image); });
+  return image;
+}
 
 FloatImage SamplingLoop::samples() {
-  return sampleImage({settings_.width, settings_.height, buffers_.orderTable, {}}, counts_);
+  FloatImage image{settings_.width, settings_.height, 1, std::vector<float>(counts_.pixels())};
+  eachPart([&](const FilmPart& part) { showSamples(part, counts_, image); });
+  return image;
 }
 
 }  // namespace whittle

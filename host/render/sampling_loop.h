@@ -3,8 +3,6 @@
 #pragma once
 
 #include <chrono>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "cl/program.h"
@@ -18,7 +16,7 @@ namespace whittle {
 /// The picture on the device. With Settings::adaptive `passOrder` and `passBlocks` have room for all pixels
 /// and blocks.
 struct FilmBuffers {
-  std::span<const std::uint32_t> orderTable;  ///< y << 16 | x
+  std::size_t pixels;
   const Buffer& order;
   const Buffer& film;
   const Buffer& passOrder;
@@ -57,8 +55,9 @@ class SamplingLoop {
   void reportProgress(double samples);
   double expectedSamples() const;
   void look();
-  /// The film as it is, read once after each pass.
-  const FilmSums& film();
+  /// Calls visit(part) for the whole film, part by part: beside the device's there is never another.
+  template <class Visit>
+  void eachPart(const Visit& visit);
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   Compute& compute_;
@@ -72,7 +71,6 @@ class SamplingLoop {
   double passSeconds_ = 0.0;       ///< the last uniform pass
   std::uint32_t passSamples_ = 0;  ///< of each pixel, then
   bool saidLate_ = false;
-  std::optional<FilmSums> film_;
   std::vector<double> variances_;  ///< of blocks, at the last look
   double endedShare_ = 0.0;        ///< bound on endedPerSample for passes of some blocks only
   std::vector<ErrorPoint> error_;

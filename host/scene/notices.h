@@ -1,6 +1,7 @@
 // What the loader, the analysis and the renderer want the user to know without stopping.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@ namespace whittle {
 struct Notices {
   std::vector<std::string> warnings;
   std::vector<std::string> notes;
+  std::vector<std::filesystem::path> files;  ///< that the scene's file asked for, besides itself
 
   void warn(std::string text) { warnings.push_back(std::move(text)); }
   void note(std::string text) { notes.push_back(std::move(text)); }

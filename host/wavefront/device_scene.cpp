@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <map>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -47,8 +47,21 @@ class TextureAtlas {
     return indexOf(t);
   }
 
+  /// The texels of all images as words, the first channel lowest; they go from the images to the device
+  /// without another copy in between.
+  Buffer upload(Compute& compute) const {
+    static_assert(std::endian::native == std::endian::little);
+    Buffer buffer = compute.allocate("texels", std::size_t{words_} * 4);
+    for (const auto& [key, word] : first_) {
+      const Image& image = imageOf(key.first);
+      const std::size_t at = std::size_t{word} * 4;
+      key.second ? compute.write(buffer, at, std::as_bytes(std::span(image.deepTexels)))
+                 : compute.write(buffer, at, std::as_bytes(std::span(image.texels)));
+    }
+    return buffer;
+  }
+
   std::vector<device::DeviceTexture> slots;
-  std::vector<std::uint32_t> texels;
 
  private:
   const Image& imageOf(int index) const {
@@ -65,24 +78,17 @@ class TextureAtlas {
 
   /// An image that colours and other values read is there in both forms.
   std::uint32_t firstTexel(int index, bool isDeep) {
-    const auto [at, isNew] = first_.try_emplace({index, isDeep}, static_cast<std::uint32_t>(texels.size()));
+    const auto [at, isNew] = first_.try_emplace({index, isDeep}, words_);
     const Image& image = imageOf(index);
-    if (isNew) isDeep ? append(image.deepTexels) : append(image.texels);
+    if (isNew)
+      words_ += static_cast<std::uint32_t>(isDeep ? image.deepTexels.size() / 2 : image.texels.size() / 4);
     return at->second;
-  }
-
-  /// Words as they lie in memory, the first channel lowest.
-  template <typename Channel>
-  void append(const std::vector<Channel>& channels) {
-    static_assert(std::endian::native == std::endian::little);
-    const std::size_t begin = texels.size(), words = channels.size() * sizeof(Channel) / 4;
-    texels.resize(begin + words);
-    std::memcpy(texels.data() + begin, channels.data(), words * 4);
   }
 
   const Scene& scene_;
   const PrunedScene& pruned_;
   std::map<std::pair<int, bool>, std::uint32_t> first_;  ///< word, by image and whether it is deep
+  std::uint32_t words_ = 0;                              ///< of all of them
   std::unordered_map<std::string, int> known_;           ///< slots by their bits
 };
 
@@ -137,19 +143,30 @@ std::vector<glm::uvec3> hittableCorners(const Scene& scene) {
 }
 
 /// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
-std::vector<device::DeviceTriangle> leafTriangles(const Scene& scene, const PrunedScene& pruned,
-                                                  const std::vector<glm::uvec3>& corners,
-                                                  const std::vector<std::uint32_t>& order) {
-  std::vector<device::DeviceTriangle> out(order.size() + 1);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const std::uint32_t material = pruned.materialOf[scene.triangles[order[i]].material];
-    for (int k = 0; k < 3; ++k) copy3(out[i].v[k], scene.positions[corners[order[i]][k]]);
-    out[i].primitive = order[i];
-    out[i].material = material;
-    out[i].flags = triangleFlags(pruned.materials[material]);
+/// They are made some at a time: all of them would be more than the tree.
+Buffer uploadTriangles(Compute& compute, const Scene& scene, const PrunedScene& pruned,
+                       const std::vector<glm::uvec3>& corners, const std::vector<std::uint32_t>& order) {
+  constexpr std::size_t kAtOnce = 1 << 16;
+  const std::size_t all = order.size() + 1;
+  Buffer buffer = compute.allocate("triangles", all * sizeof(device::DeviceTriangle));
+  std::vector<device::DeviceTriangle> out(std::min(kAtOnce, all));
+  for (std::size_t first = 0; first < all; first += out.size()) {
+    out.assign(std::min(kAtOnce, all - first), device::DeviceTriangle{});
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if (first + i == order.size()) {
+        out[i].primitive = 0xffffffffU;
+        continue;
+      }
+      const std::uint32_t triangle = order[first + i];
+      const std::uint32_t material = pruned.materialOf[scene.triangles[triangle].material];
+      for (int k = 0; k < 3; ++k) copy3(out[i].v[k], scene.positions[corners[triangle][k]]);
+      out[i].primitive = triangle;
+      out[i].material = material;
+      out[i].flags = triangleFlags(pruned.materials[material]);
+    }
+    compute.write(buffer, first * sizeof(device::DeviceTriangle), std::as_bytes(std::span(out)));
   }
-  out.back().primitive = 0xffffffffU;
-  return out;
+  return buffer;
 }
 
 std::vector<TreeNode> withSentinels(const TriTree& tree) {
@@ -256,18 +273,20 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
                         const SceneFeatures& features) {
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
-  const std::vector<glm::uvec3> hittable = hittableCorners(scene);
+  std::vector<glm::uvec3> hittable = hittableCorners(scene);
   if (features.has(Feature::TREE) && !features.has(Feature::PACKETS))
     d.nodes = compute.upload("nodes", withSentinels(tree));
   if (features.has(Feature::TREE) && features.has(Feature::PACKETS)) {
-    const Bvh8 wide = buildBvh8(tree, scene.positions, hittable);
+    Bvh8 wide = buildBvh8(tree, scene.positions, hittable);
     if (wide.depth > BVH8_DEPTH)
       throw ClError(fmt::format("the eight-wide tree is {} nodes deep, the kernels have room for {}",
                                 wide.depth, BVH8_DEPTH));
     d.bvh8Nodes = compute.upload("bvh8Nodes", wide.nodes);
+    wide.nodes = {};
     d.leaves = compute.upload("leaves", wide.corners);
   }
-  d.triangles = compute.upload("triangles", leafTriangles(scene, pruned, hittable, tree.order));
+  d.triangles = uploadTriangles(compute, scene, pruned, hittable, tree.order);
+  hittable = {};
   const bool interpolates = features.has(Feature::VERTEX_NORMALS) || features.has(Feature::TEXTURES) ||
                             features.has(Feature::VERTEX_COLORS);
   if (interpolates) {
@@ -292,7 +311,7 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   d.materials = compute.upload("materials", materials);
   if (features.has(Feature::TEXTURES)) {
     d.textures = compute.upload("textures", atlas.slots);
-    d.texels = compute.upload("texels", atlas.texels);
+    d.texels = atlas.upload(compute);
     d.linearFromSrgb = compute.upload("linearFromSrgb", srgbTable());
   }
   const auto lights = lightsToDevice(scene, pruned);

@@ -11,8 +11,9 @@
 namespace whittle {
 namespace {
 
-double plane(const FilmSums& s, int sum, int compensation, std::size_t pixel) {
-  const std::size_t pixels = static_cast<std::size_t>(s.width) * s.height;
+/// `pixel` counts from the beginning of the part.
+double plane(const FilmPart& s, int sum, int compensation, std::size_t pixel) {
+  const std::size_t pixels = s.pixelOrder.size();
   const auto value = [&](int at) {
     return static_cast<double>(s.planes[static_cast<std::size_t>(at) * pixels + pixel]);
   };
@@ -36,14 +37,14 @@ std::size_t filmPlanes(int samples) { return samples > 1 ? FILM_PLANES : FILM_PL
 
 namespace {
 
-/// Where pixel p of the pixel order lies in an image.
-std::size_t placeOf(const FilmSums& sums, std::size_t p) {
-  return static_cast<std::size_t>(sums.pixelOrder[p] >> 16) * sums.width + (sums.pixelOrder[p] & 0xffffU);
+/// Where pixel p of the part lies in an image.
+std::size_t placeOf(const FilmPart& part, std::size_t p, const FloatImage& image) {
+  return static_cast<std::size_t>(part.pixelOrder[p] >> 16) * image.width + (part.pixelOrder[p] & 0xffffU);
 }
 
 /// Of the mean of n samples of pixel p, averaged over the channels; infinite where squares of the samples
 /// left the range of floats (radiance above 1e19): nothing is known then.
-double varianceOfMean(const FilmSums& sums, std::size_t p, double n) {
+double varianceOfMean(const FilmPart& sums, std::size_t p, double n) {
   double squaredMean = 0.0;
   for (int c = 0; c < 3; ++c) {
     const double mean = plane(sums, FILM_SUM + c, FILM_COMPENSATION + c, p) / n;
@@ -56,27 +57,21 @@ double varianceOfMean(const FilmSums& sums, std::size_t p, double n) {
 
 }  // namespace
 
-FloatImage resolveFilm(const FilmSums& sums, const SampleCounts& counts) {
-  FloatImage image{sums.width, sums.height, 3, {}};
-  const std::size_t pixels = static_cast<std::size_t>(sums.width) * sums.height;
-  image.pixels.resize(pixels * 3);
-  for (std::size_t p = 0; p < pixels; ++p) {
-    const double n = std::max(1U, counts.ofPixel(p));
+void resolveFilm(const FilmPart& part, const SampleCounts& counts, FloatImage& image) {
+  for (std::size_t p = 0; p < part.pixelOrder.size(); ++p) {
+    const double n = std::max(1U, counts.ofPixel(part.first + p));
     for (int c = 0; c < 3; ++c)
-      image.pixels[placeOf(sums, p) * 3 + c] =
-          static_cast<float>(plane(sums, FILM_SUM + c, FILM_COMPENSATION + c, p) / n);
+      image.pixels[placeOf(part, p, image) * 3 + c] =
+          static_cast<float>(plane(part, FILM_SUM + c, FILM_COMPENSATION + c, p) / n);
   }
-  return image;
 }
 
-std::vector<double> blockVariances(const FilmSums& sums, const SampleCounts& counts) {
-  std::vector<double> variances(counts.blocks(), 0.0);
-  for (std::size_t p = 0; p < counts.pixels(); ++p) {
-    const std::uint32_t n = counts.ofPixel(p);
-    variances[p / FILM_BLOCK] +=
-        n >= 2 ? varianceOfMean(sums, p, n) : std::numeric_limits<double>::infinity();
+void addBlockVariances(const FilmPart& part, const SampleCounts& counts, std::vector<double>& variances) {
+  for (std::size_t p = 0; p < part.pixelOrder.size(); ++p) {
+    const std::uint32_t n = counts.ofPixel(part.first + p);
+    variances[(part.first + p) / FILM_BLOCK] +=
+        n >= 2 ? varianceOfMean(part, p, n) : std::numeric_limits<double>::infinity();
   }
-  return variances;
 }
 
 double estimateError(const std::vector<double>& blockVariances, const SampleCounts& counts) {
@@ -84,20 +79,16 @@ double estimateError(const std::vector<double>& blockVariances, const SampleCoun
   return std::sqrt(total / static_cast<double>(counts.pixels()));
 }
 
-double meanOfChannels(const FilmSums& sums, const SampleCounts& counts) {
-  double total = 0.0;
-  for (std::size_t p = 0; p < counts.pixels(); ++p)
+void addRadiance(const FilmPart& part, const SampleCounts& counts, double& total) {
+  for (std::size_t p = 0; p < part.pixelOrder.size(); ++p)
     for (int c = 0; c < 3; ++c)
-      total += plane(sums, FILM_SUM + c, FILM_COMPENSATION + c, p) / std::max(1U, counts.ofPixel(p));
-  return total / (3.0 * static_cast<double>(counts.pixels()));
+      total +=
+          plane(part, FILM_SUM + c, FILM_COMPENSATION + c, p) / std::max(1U, counts.ofPixel(part.first + p));
 }
 
-FloatImage sampleImage(const FilmSums& sums, const SampleCounts& counts) {
-  FloatImage image{sums.width, sums.height, 1, {}};
-  image.pixels.resize(counts.pixels());
-  for (std::size_t p = 0; p < counts.pixels(); ++p)
-    image.pixels[placeOf(sums, p)] = static_cast<float>(counts.ofPixel(p));
-  return image;
+void showSamples(const FilmPart& part, const SampleCounts& counts, FloatImage& image) {
+  for (std::size_t p = 0; p < part.pixelOrder.size(); ++p)
+    image.pixels[placeOf(part, p, image)] = static_cast<float>(counts.ofPixel(part.first + p));
 }
 
 double rootMeanSquare(const FloatImage& picture, const FloatImage& reference) {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -15,31 +14,30 @@ namespace whittle {
 /// Planes of the film of a picture with this many samples for each pixel.
 std::size_t filmPlanes(int samples);
 
-/// filmPlanes planes of width·height floats (kernels/shared/layout.h), pixels in the
-/// order of makePixelOrder.
-struct FilmSums {
-  int width = 0, height = 0;
-  std::span<const std::uint32_t> pixelOrder;  ///< y << 16 | x
-  std::vector<float> planes;
+/// A part of the film, pixels `first` and on in the order of makePixelOrder: as much as is looked at at once.
+struct FilmPart {
+  std::size_t first = 0;                  ///< the beginning of a block
+  std::vector<std::uint32_t> pixelOrder;  ///< y << 16 | x, of its pixels
+  std::vector<float> planes;              ///< filmPlanes planes of its pixels (kernels/shared/layout.h)
 };
 
-/// Mean of each pixel's samples, RGB; 0 where a pixel has none.
-FloatImage resolveFilm(const FilmSums& sums, const SampleCounts& counts);
+/// Puts the mean of each pixel's samples into `image`, RGB; 0 where a pixel has none.
+void resolveFilm(const FilmPart& part, const SampleCounts& counts, FloatImage& image);
 
 /// For each block of pixels, the sum over them of the variance of the pixel's mean, averaged over the
 /// channels, (W/(m² sr))². Needs planes of more than one sample; infinite for a block with fewer than two
 /// samples. It is what independent samples would give; stratified and Sobol samples do better than it says.
-std::vector<double> blockVariances(const FilmSums& sums, const SampleCounts& counts);
+void addBlockVariances(const FilmPart& part, const SampleCounts& counts, std::vector<double>& variances);
 
 /// Standard error of the picture, W/(m² sr): what `rootMeanSquare` to the true picture is expected to be (the
 /// root of its expected square). blockVariances over all pixels.
 double estimateError(const std::vector<double>& blockVariances, const SampleCounts& counts);
 
-/// Mean radiance over pixels and colour channels, W/(m² sr).
-double meanOfChannels(const FilmSums& sums, const SampleCounts& counts);
+/// Adds the radiance of all pixels and colour channels, W/(m² sr), to `total`.
+void addRadiance(const FilmPart& part, const SampleCounts& counts, double& total);
 
-/// Samples of each pixel, one channel.
-FloatImage sampleImage(const FilmSums& sums, const SampleCounts& counts);
+/// Puts the samples of each pixel into `image`, one channel.
+void showSamples(const FilmPart& part, const SampleCounts& counts, FloatImage& image);
 
 /// Root mean square difference over the colour channels of two pictures of one size, as `whittle compare`
 /// prints it.

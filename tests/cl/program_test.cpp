@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "cl/kernel_source.h"
+#include "scene/byte_counts.h"
 #include "support/temporary_sources.h"
 #include "support/test_device.h"
 

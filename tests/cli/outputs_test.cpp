@@ -148,8 +148,12 @@ TEST(Outputs, APictureThatNoDeviceHoldsIsRefusedBeforeAnythingIsAllocated) {
   };
   const Folder folder;
   const Outcome render = runWhittle(with({"render", scene, "-o", "a.png"}), {folder.path(), {}});
-  EXPECT_EQ(render.status, 1);
-  EXPECT_NE(render.err.find("65535×65535"), std::string::npos) << render.err;
+  EXPECT_EQ(render.status, 2);
+  EXPECT_NE(render.err.find("a picture of 65535×65535 would take "), std::string::npos) << render.err;
+  const Outcome allowed =
+      runWhittle(with({"render", scene, "-o", "a.png", "--memory-limit", "900T"}), {folder.path(), {}});
+  EXPECT_EQ(allowed.status, 1) << "the device has no more than it has";
+  EXPECT_NE(allowed.err.find("65535×65535"), std::string::npos) << allowed.err;
   EXPECT_TRUE(folder.names().empty());
   const Outcome info = runWhittle(with({"info", scene}));
   EXPECT_EQ(info.status, 0) << info.err;

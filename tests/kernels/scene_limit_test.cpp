@@ -2,6 +2,7 @@
 // the buffer and both numbers. The limit is a made-up one: the device as it is, told to be small.
 #include <gtest/gtest.h>
 
+#include "scene/byte_counts.h"
 #include "support/search_bench.h"
 
 namespace whittle {

@@ -5,6 +5,7 @@
 // that has its own memory would, and a sanitizer shadows all of it: there the test is left out.
 #include <gtest/gtest.h>
 
+#include "scene/byte_counts.h"
 #include "support/record.h"
 #include "support/search_bench.h"
 

@@ -22,36 +22,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file's first picture as `channels` interleaved values of type T, at most four.
+/// Some rows at a time: the library holds what it reads in the file's own format beside what it returns.
+bool readInStrips(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int channels,
+                  const OIIO::TypeDesc& type, void* pixels, OIIO::stride_t pixelBytes) {
+  constexpr int kRows = 64;
+  if (spec.tile_width > 0) return input.read_image(0, 0, 0, channels, type, pixels, pixelBytes);
+  const OIIO::stride_t rowBytes = pixelBytes * spec.width;
+  for (int y = 0; y < spec.height; y += kRows) {
+    const int end = std::min(y + kRows, spec.height);
+    if (!input.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, channels, type,
+                              static_cast<std::byte*>(pixels) + y * rowBytes, pixelBytes, rowBytes))
+      return false;
+  }
+  return true;
+}
+
+/// The file's first picture as RGBA of type T: grey, grey + alpha, RGB and RGBA are read into their places.
 template <class T>
-std::vector<T> readPixels(OIIO::ImageInput& input, OIIO::TypeDesc type, int channels,
-                          const std::string& name) {
+std::vector<T> readRgba(OIIO::ImageInput& input, OIIO::TypeDesc type, const std::string& name) {
   const OIIO::ImageSpec& spec = input.spec();
-  std::vector<T> pixels(static_cast<std::size_t>(spec.width) * spec.height * channels);
-  const bool read = input.read_image(0, 0, 0, channels, type, pixels.data());
+  const int channels = std::min(spec.nchannels, 4);
+  const std::size_t count = static_cast<std::size_t>(spec.width) * spec.height;
+  std::vector<T> pixels(4 * count);
+  const auto pixelBytes = static_cast<OIIO::stride_t>(4 * sizeof(T));
+  const bool read = readInStrips(input, spec, channels, type, pixels.data(), pixelBytes);
   const std::string said = input.geterror();
   // libjpeg fills what is missing with grey and calls that a warning.
   if (!read || said.find("Premature end") != std::string::npos) {
     refuseToDecode(name, oneLine(said));
   }
-  return pixels;
-}
-
-/// Grey, grey + alpha, RGB and RGBA to RGBA.
-template <class T>
-std::vector<T> toRgba(std::vector<T> in, int channels) {
-  if (channels == 4) return in;
-  const std::size_t count = in.size() / static_cast<std::size_t>(channels);
-  const int green = channels >= 3 ? 1 : 0, blue = channels >= 3 ? 2 : 0;
-  std::vector<T> out(count * 4);
-  for (std::size_t i = 0; i < count; ++i) {
-    const T* texel = &in[i * channels];
-    out[i * 4 + 0] = texel[0];
-    out[i * 4 + 1] = texel[green];
-    out[i * 4 + 2] = texel[blue];
-    out[i * 4 + 3] = channels == 2 ? texel[1] : std::numeric_limits<T>::max();
+  for (std::size_t i = 0; channels < 4 && i < count; ++i) {
+    T* const texel = &pixels[4 * i];
+    texel[3] = channels == 2 ? texel[1] : std::numeric_limits<T>::max();
+    if (channels < 3) texel[1] = texel[2] = texel[0];
   }
-  return out;
+  return pixels;
 }
 
 /// Whether 16-bit values say more than 8 bits could: those are the multiples of 257.
@@ -59,24 +64,25 @@ bool areDeep(const std::vector<std::uint16_t>& values) {
   return std::any_of(values.begin(), values.end(), [](std::uint16_t v) { return v % 257 != 0; });
 }
 
-/// As the library converts what it reads.
+/// As the library converts what it reads; some at a time, since it goes through floats.
 std::vector<std::uint8_t> inEightBits(const std::vector<std::uint16_t>& values) {
   std::vector<std::uint8_t> bytes(values.size());
-  OIIO::convert_pixel_values(OIIO::TypeDesc::UINT16, values.data(), OIIO::TypeDesc::UINT8, bytes.data(),
-                             static_cast<int>(values.size()));
+  constexpr std::size_t kAtOnce = 1 << 16;
+  for (std::size_t at = 0; at < values.size(); at += kAtOnce)
+    OIIO::convert_pixel_values(OIIO::TypeDesc::UINT16, &values[at], OIIO::TypeDesc::UINT8, &bytes[at],
+                               static_cast<int>(std::min(kAtOnce, values.size() - at)));
   return bytes;
 }
 
 Image toImage(OIIO::ImageInput& input, const std::string& name) {
   const OIIO::ImageSpec& spec = input.spec();
   checkSize(spec, kMaxTextureSide, name);
-  const int channels = std::min(spec.nchannels, 4);
   Image image{name, spec.width, spec.height, {}};
   if (spec.format != OIIO::TypeDesc::UINT16) {
-    image.texels = toRgba(readPixels<std::uint8_t>(input, OIIO::TypeDesc::UINT8, channels, name), channels);
+    image.texels = readRgba<std::uint8_t>(input, OIIO::TypeDesc::UINT8, name);
     return image;
   }
-  auto deep = toRgba(readPixels<std::uint16_t>(input, OIIO::TypeDesc::UINT16, channels, name), channels);
+  auto deep = readRgba<std::uint16_t>(input, OIIO::TypeDesc::UINT16, name);
   image.texels = inEightBits(deep);
   if (areDeep(deep)) image.deepTexels = std::move(deep);
   return image;
@@ -119,6 +125,7 @@ class OiioCodec final : public ImageCodec {
  public:
   Image decodeImage(std::span<const std::byte> bytes, const std::string& name) const override;
   Image readImage(const fs::path& path) const override;
+  ImageHeader readHeader(const fs::path& path) const override;
   FloatImage readFloatImage(const fs::path& path) const override;
   void writeExr(const fs::path& path, const FloatImage& image, const ImageMetadata& metadata,
                 const std::vector<std::string>& channelNames) const override;
@@ -147,6 +154,15 @@ Image OiioCodec::readImage(const fs::path& path) const {
     input.reset();
     const std::vector<std::byte> bytes = readBytes(path);  // PNG goes through decodeImage's checks
     return decodeImage(bytes, name);
+  });
+}
+
+ImageHeader OiioCodec::readHeader(const fs::path& path) const {
+  return guarded(path.string(), [&] {
+    const auto input = openFile(path);
+    const OIIO::ImageSpec& spec = input->spec();
+    checkSize(spec, kMaxFloatSide, path.string());
+    return ImageHeader{spec.width, spec.height, spec.format == OIIO::TypeDesc::UINT16};
   });
 }
 

@@ -19,8 +19,7 @@
 
 namespace whittle {
 
-/// Larger pictures are taken for corrupt headers: the decoded texels alone would pass 1 GiB.
-inline constexpr int kMaxTextureSide = 16384;
+/// Larger pictures are taken for corrupt headers, as larger textures are (image/image_header.h).
 inline constexpr int kMaxFloatSide = 65536;
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 30;
 

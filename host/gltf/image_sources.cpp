@@ -1,0 +1,102 @@
+#include "gltf/image_sources.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <tuple>
+#include <unordered_map>
+
+#include "gltf/uri.h"
+#include "scene/input_error.h"
+
+namespace whittle::gltf {
+namespace {
+
+/// Of a JPEG before its frame header; a whole picture need not be decoded for its size.
+constexpr std::size_t kEncodedStart = 1 << 20;
+
+/// The textures that a material's slots name, as far down as its extensions go.
+void collectTextures(const Json& object, std::set<std::size_t>& textures) {
+  for (const auto& [key, value] : object.items()) {
+    if (!value.is_object()) continue;
+    if (key.ends_with("Texture") && value.contains("index"))
+      textures.insert(value["index"].get<std::size_t>());
+    collectTextures(value, textures);
+  }
+}
+
+}  // namespace
+
+ImageSources::ImageSources(Document& document) : document_(document) {
+  const Json& images = child(document.json, "images");
+  std::unordered_map<std::string_view, std::size_t> byUri;
+  std::map<std::tuple<int, std::size_t, std::size_t>, std::size_t> byRange;
+  first_.resize(images.size());
+  for (std::size_t i = 0; i < first_.size(); ++i) {
+    first_[i] = i;
+    if (images[i].contains("uri")) {
+      first_[i] = byUri.try_emplace(images[i]["uri"].get_ref<const std::string&>(), i).first->second;
+    } else if (images[i].contains("bufferView")) {
+      const auto& view = document.model.bufferViews[images[i]["bufferView"].get<std::size_t>()];
+      first_[i] = byRange.try_emplace({view.buffer, view.byteOffset, view.byteLength}, i).first->second;
+    }
+  }
+}
+
+const std::filesystem::path& ImageSources::file(std::size_t image) {
+  if (const auto known = files_.find(image); known != files_.end()) return known->second;
+  const auto& uri = document_.json["images"][image]["uri"].get_ref<const std::string&>();
+  return files_.emplace(image, fileOf(document_, uri)).first->second;
+}
+
+/// Nothing where it cannot be told: whoever decodes the image says why.
+std::optional<ImageHeader> ImageSources::header(std::size_t image) {
+  const Json& description = document_.json["images"][image];
+  try {
+    if (!description.contains("uri")) {
+      if (!description.contains("bufferView")) return std::nullopt;
+      return headerOf(viewData(document_, description["bufferView"].get<int>()));
+    }
+    const std::string_view uri = description["uri"].get_ref<const std::string&>();
+    if (isDataUri(uri)) {
+      const auto start = decodeDataUri(uri.substr(0, kEncodedStart));
+      return start ? headerOf(*start) : std::nullopt;
+    }
+    if (isAbsoluteUri(uri)) return std::nullopt;
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(file(image), unknown);
+    if (!unknown) document_.budget->sawFile(size);
+    return headerOf(file(image));
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+void ImageSources::hold(const std::set<int>& materials, std::uint64_t texelBytes) {
+  std::set<std::size_t> textures, images;
+  for (const int material : materials)
+    if (material >= 0) collectTextures(document_.json["materials"][at(material)], textures);
+  for (const std::size_t texture : textures)
+    if (const int source = document_.model.textures[texture].source; source >= 0)
+      images.insert(first_[at(source)]);
+  std::uint64_t pixels = 0, bytes = 0, decoder = 0;
+  for (const std::size_t image : images) {
+    const auto found = header(image);
+    // One that is too large by itself is left out, with a warning of its own.
+    if (!found || found->width > kMaxTextureSide || found->height > kMaxTextureSide) continue;
+    pixels += found->pixels();
+    bytes += found->decodedBytes();
+    decoder = std::max(decoder, found->decoderBytes());
+  }
+  if (bytes == 0) return;
+  const std::string what =
+      fmt::format("{}, {:.4g} megapixels in all,",
+                  images.size() == 1 ? "its image" : fmt::format("its {} images", images.size()),
+                  static_cast<double>(pixels) / 1e6);
+  document_.pass(bytes + decoder, what);
+  document_.hold(bytes, what);
+  document_.promise(texelBytes * pixels, what);
+}
+
+}  // namespace whittle::gltf

@@ -1,0 +1,97 @@
+// See peak_memory.h. The phases are those of render/renderer.cpp and wavefront/device_scene.cpp, in their
+// order.
+#include "render/peak_memory.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "bvh/prim_ref.h"
+#include "bvh/tri_tree.h"
+#include "kernels/shared/layout.h"
+#include "wavefront/film.h"
+
+namespace whittle {
+namespace {
+
+template <class T>
+std::uint64_t bytesOf(const std::vector<T>& array) {
+  return array.size() * sizeof(T);
+}
+
+std::uint64_t bytesOf(const Scene& s) {
+  std::uint64_t bytes = bytesOf(s.positions) + bytesOf(s.normals) + bytesOf(s.tangents) + bytesOf(s.uv0) +
+                        bytesOf(s.uv1) + bytesOf(s.colors) + bytesOf(s.triangles) + bytesOf(s.materials) +
+                        bytesOf(s.lights) + bytesOf(s.background.map);
+  for (const Image& image : s.images) bytes += bytesOf(image.texels) + bytesOf(image.deepTexels);
+  return bytes;
+}
+
+std::uint64_t pixelsOf(const Settings& s) {
+  return static_cast<std::uint64_t>(s.width) * static_cast<std::uint64_t>(s.height);
+}
+
+/// Of the device's buffers; of queues the part that the picture's samples reach.
+class DeviceBytes {
+ public:
+  explicit DeviceBytes(const RenderPlan& plan) : plan_(plan) {}
+
+  std::uint64_t named(std::string_view name) const {
+    return sum([&](const BufferStats& b) { return b.name == name; });
+  }
+  std::uint64_t all() const {
+    const double samples = static_cast<double>(pixelsOf(plan_.settings)) * plan_.settings.raysPerPixel;
+    const double reached = std::min(1.0, samples / plan_.settings.wavefront);
+    const std::uint64_t queues = sum([](const BufferStats& b) { return b.group == "queues"; });
+    return sum([](const BufferStats& b) { return b.group != "queues"; }) +
+           static_cast<std::uint64_t>(reached * static_cast<double>(queues));
+  }
+
+ private:
+  template <class Counts>
+  std::uint64_t sum(const Counts& counts) const {
+    std::uint64_t bytes = 0;
+    for (const BufferStats& b : plan_.buffers) bytes += counts(b) ? b.bytes : 0;
+    return bytes;
+  }
+
+  const RenderPlan& plan_;
+};
+
+/// What upload holds on this side beside the tree, at its most.
+std::uint64_t uploadBytes(const Scene& scene, const RenderPlan& plan, std::uint64_t tree) {
+  const DeviceBytes device(plan);
+  const std::uint64_t triangles = scene.triangles.size();
+  const std::uint64_t wide = device.named("bvh8Nodes"), leaves = device.named("leaves");
+  const std::uint64_t hittable = 12 * triangles, planned = 44 * plan.treeNodes;
+  const std::uint64_t collapse = planned + leaves + wide, join = leaves + 2 * wide;
+  const std::uint64_t copied = std::max(leaves + 2 * wide, wide + 2 * leaves);
+  const std::uint64_t made = wide + leaves + device.named("nodes") * 2 + device.named("triangles");
+  return tree + hittable + std::max({wide > 0 ? std::max({collapse, join, copied}) : 0, made});
+}
+
+}  // namespace
+
+std::uint64_t pictureBytes(const Settings& settings) {
+  constexpr std::uint64_t kOrder = sizeof(std::uint32_t), kPicture = 3 * sizeof(float);
+  const std::uint64_t adaptive = settings.adaptive ? kOrder : 0;
+  return pixelsOf(settings) *
+         (filmPlanes(settings.raysPerPixel) * sizeof(float) + kOrder + adaptive + kPicture);
+}
+
+std::uint64_t peakBytes(const Scene& scene, const RenderPlan& plan, std::uint64_t loadBytes) {
+  const DeviceBytes device(plan);
+  const std::uint64_t triangles = scene.triangles.size(), pixels = pixelsOf(plan.settings);
+  const std::uint64_t tree =
+      sizeof(TreeNode) * plan.treeNodes + sizeof(std::uint32_t) * (plan.treeNodes > 0 ? triangles : 0);
+  const std::uint64_t build = tree + (plan.treeNodes > 0 ? (sizeof(PrimRef) + 12) * triangles : 0);
+  const std::uint64_t upload = uploadBytes(scene, plan, tree);
+  // The order of the pixels is made on this side; the picture comes when everything is still there.
+  const std::uint64_t rendering =
+      device.all() + 3 * sizeof(float) * pixels + (device.named("aovs") > 0 ? device.named("aovs") * 2 : 0);
+  // Encoding: the picture once more, as codes or as floats that do not compress.
+  const std::uint64_t writing = 6 * sizeof(float) * pixels;
+  const std::uint64_t own = bytesOf(scene) + std::max({build, upload, rendering, writing});
+  return std::max(kProgramBytes + kRuntimeBytes + own, loadBytes);
+}
+
+}  // namespace whittle

@@ -253,7 +253,7 @@ TEST(Faults, AnImageLibraryThatIsMissingIsFoundOutFirst) {
     EXPECT_EQ(run.status, 1);
     EXPECT_EQ(run.err.rfind("whittle: libwhittle_codec.so", 0), 0U) << run.err;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60))
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(300))
         << "kernels perhaps, no samples";
   }
   EXPECT_EQ(folder.names(), Names{"bin"});
@@ -294,10 +294,10 @@ TEST(Faults, ShortMemoryEndsInOneLine) {
 TEST(Faults, AFolderThatVanishesLosesNoPicture) {
   const Folder folder;
   const Outcome run = runShell(
-      "mkdir out kept; (while test -d out; do sleep 0.1; rmdir out 2>/dev/null; done) & \"$WHITTLE\" "
+      "mkdir out kept; (sleep 1.5; rmdir out) & \"$WHITTLE\" "
       "render " +
           scene() +
-          " --width 64 --height 48 --rays-per-pixel 400 -o a.exr -o out/b.exr --aov depth=out/d.exr -o "
+          " --width 64 --height 48 --time-limit 3 -o a.exr -o out/b.exr --aov depth=out/d.exr -o "
           "kept/c.exr --quiet",
       {folder.path(), {}});
   EXPECT_EQ(run.status, 1);
@@ -312,8 +312,8 @@ TEST(Faults, AWorkingFolderThatVanishesLosesNoPicture) {
   const Folder folder, temporary;
   std::filesystem::create_directory(folder / "here");
   const Outcome run = runShell("export TMPDIR=" + temporary.path().string() +
-                                   "; (sleep 0.2; rmdir ../here) & \"$WHITTLE\" render " + scene() +
-                                   " --width 64 --height 48 --rays-per-pixel 400 -o a.exr --quiet",
+                                   "; (sleep 1.5; rmdir ../here) & \"$WHITTLE\" render " + scene() +
+                                   " --width 64 --height 48 --time-limit 3 -o a.exr --quiet",
                                {folder / "here", {}});
   EXPECT_EQ(run.status, 1) << run.err;
   EXPECT_EQ(temporary.names(), Names{"a.exr"});

@@ -24,18 +24,25 @@ using Clock = std::chrono::steady_clock;
 /// Minutes of work, so that what a test does comes while it renders.
 std::vector<std::string> longRender() { return smallRender({"-o", "a.exr", "--rays-per-pixel", "1000000"}); }
 
-/// The process that the guard has started, once it runs with two threads or more: its driver is open.
-pid_t workerOf(pid_t guard) {
-  for (int i = 0; i < 500; ++i, std::this_thread::sleep_for(20ms)) {
-    const std::string task = "/proc/" + std::to_string(guard) + "/task/" + std::to_string(guard);
-    pid_t worker = 0;
-    if (!(std::ifstream(task + "/children") >> worker)) continue;
+/// Waits until `process` runs with two threads or more: its driver is open.
+bool waitForThreads(pid_t process) {
+  for (int i = 0; i < 1000; ++i, std::this_thread::sleep_for(20ms)) {
     std::error_code gone;
     std::size_t threads = 0;
-    for ([[maybe_unused]] const auto& t :
-         std::filesystem::directory_iterator("/proc/" + std::to_string(worker) + "/task", gone))
-      ++threads;
-    if (threads > 1) return worker;
+    std::filesystem::directory_iterator thread("/proc/" + std::to_string(process) + "/task", gone);
+    for (; !gone && thread != std::filesystem::directory_iterator(); thread.increment(gone)) ++threads;
+    if (threads > 1) return true;
+  }
+  return false;
+}
+
+/// The process that the guard has started, once its driver is open; 0 if that does not happen.
+pid_t workerOf(pid_t guard) {
+  const std::string children =
+      "/proc/" + std::to_string(guard) + "/task/" + std::to_string(guard) + "/children";
+  for (int i = 0; i < 1000; ++i, std::this_thread::sleep_for(20ms)) {
+    pid_t worker = 0;
+    if (std::ifstream(children) >> worker) return waitForThreads(worker) ? worker : 0;
   }
   return 0;
 }
@@ -58,9 +65,8 @@ TEST(Guard, ACrashOfTheWorkerIsOneLine) {
   ::kill(worker, SIGBUS);
   const Outcome run = process.finish();
   EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(
-      run.err.rfind("whittle: a crash in a library or the OpenCL driver ended the program (SIGBUS while ", 0),
-      0U)
+  EXPECT_EQ(run.err.rfind("whittle: a crash in a library or the OpenCL driver ended the program (SIGBUS", 0),
+            0U)
       << run.err;
   EXPECT_NE(run.err.find("nothing written"), std::string::npos) << run.err;
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
@@ -100,7 +106,7 @@ TEST(Guard, TheCompilersProcessGoesWithIt) {
   for (int i = 0; i < 500 && compilers.empty(); ++i, std::this_thread::sleep_for(10ms))
     compilers = childrenOf(worker);
   ASSERT_FALSE(compilers.empty());
-  std::this_thread::sleep_for(200ms);  // past its own start
+  for (const pid_t compiler : compilers) ASSERT_TRUE(waitForThreads(compiler)) << "it never came to work";
   process.signal(SIGKILL);
   process.finish();
   for (const pid_t compiler : compilers) {
@@ -121,7 +127,8 @@ TEST(Guard, AnInterruptionWhilePicturesAreWrittenSaysWhichAre) {
   const auto begin = Clock::now();
   process.signal(SIGTERM);
   const Outcome run = process.finish();
-  EXPECT_LT(Clock::now() - begin, 500ms);
+  // A tenth of a second here; to encode the rest takes several.
+  EXPECT_LT(Clock::now() - begin, 2s);
   EXPECT_EQ(run.status, -SIGTERM);
   EXPECT_NE(run.err.find("whittle: interrupted; written: a.jpg\n"), std::string::npos) << run.err;
   EXPECT_EQ(folder.names(), Names{"a.jpg"});

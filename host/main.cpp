@@ -2,6 +2,7 @@
 // wrong usage or unusable input.
 #include <unistd.h>
 
+#include <atomic>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -22,8 +23,9 @@ namespace {
 [[noreturn]] void endForLackOfMemory() {
   static constexpr char kText[] =
       "whittle: out of memory; a smaller picture, --wavefront or scene needs less\n";
-  // Several threads may run out of it at once.
-  while (!whittle::cli::haveExplained()) ::pause();
+  static std::atomic<bool> isEnding = false;
+  while (isEnding.exchange(true)) ::pause();  // several threads may run out of it at once
+  whittle::cli::haveExplained();
   [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kText, sizeof(kText) - 1);
   ::_exit(1);
 }

@@ -31,7 +31,7 @@ class Ledger {
  public:
   void doing(std::string_view phase) { phase_.replace(phase); }
   void wrote(std::string_view file) { written_.append(written_.empty() ? file : ", " + std::string(file)); }
-  bool explain() { return !explained_.exchange(true); }
+  void explain() { explained_ = true; }
   bool isExplained() const { return explained_; }
   std::string phase() const { return phase_.text(); }
   std::string written() const { return written_.text(); }
@@ -134,8 +134,8 @@ class Guard {
     for (;;) {
       if (const auto status = ended()) return explain(*status);
       siginfo_t info{};
-      const timespec while_{0, 100'000'000};
-      const int signal = limit_ ? ::sigtimedwait(&awaited_, &info, &while_) : ::sigwaitinfo(&awaited_, &info);
+      const timespec step{0, 100'000'000};
+      const int signal = limit_ ? ::sigtimedwait(&awaited_, &info, &step) : ::sigwaitinfo(&awaited_, &info);
       if (std::find(kEndings.begin(), kEndings.end(), signal) != kEndings.end()) endBy(signal);
       // Outside the phases it waits for people: for who reads its standard output.
       const bool starved = limit_ && starvation_.isStarved(worker_, *limit_);
@@ -219,7 +219,9 @@ void nowDoing(const std::string& phase) {
   if (ledger) ledger->doing(phase);
 }
 
-bool haveExplained() { return !ledger || ledger->explain(); }
+void haveExplained() {
+  if (ledger) ledger->explain();
+}
 
 void haveWritten(const std::string& file) {
   if (ledger) ledger->wrote(file);

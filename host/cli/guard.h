@@ -21,8 +21,6 @@ int runGuarded(const std::function<int()>& program);
 // By the worker, for the guard to say. Without a guard they do nothing.
 void nowDoing(const std::string& phase);    ///< "compiling kernels"
 void haveWritten(const std::string& file);  ///< whole, under its name
-/// That an exit status other than 0 has been explained. Async-signal-safe. False if it was before, perhaps
-/// by another thread, which is about to end the process.
-bool haveExplained();
+void haveExplained();                       ///< an exit status other than 0; takes no memory
 
 }  // namespace whittle::cli

@@ -93,7 +93,8 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
   std::future<void> codec;  // loaded while kernels are compiled
   hooks.phase = [&](const std::string& text) {
     bar.phase(text);
-    if (!o.outputs.empty() && text == kFirstPhase) codec = std::async(std::launch::async, loadImageCodec);
+    const bool writes = !o.outputs.empty() || !o.aovs.empty();
+    if (writes && text == kFirstPhase) codec = std::async(std::launch::async, loadImageCodec);
     if (codec.valid() && text == kLastPhase) codec.get();
   };
   hooks.progress = [&](const RenderProgress& p) {

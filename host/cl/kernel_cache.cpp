@@ -8,11 +8,13 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <system_error>
+
+#include "scene/byte_counts.h"
+#include "scene/whole_file.h"
 
 namespace whittle {
 namespace {
@@ -59,7 +61,8 @@ std::string problemOf(const fs::path& folder) {
   ::unlink(probe.c_str());
   if (!isWritten) return reason(problem);
   struct statvfs room {};
-  if (::statvfs(folder.c_str(), &room) == 0 && room.f_bavail * room.f_frsize < kRoom) return reason(ENOSPC);
+  if (::statvfs(folder.c_str(), &room) == 0 && room.f_bavail * room.f_frsize < kRoom)
+    return fmt::format("its disk has less than {} free", formatBytes(kRoom));
   return {};
 }
 
@@ -80,26 +83,16 @@ fs::path privateFolder() {
   return ::mkdtemp(other.data()) ? fs::path(other) : fs::path();
 }
 
-/// Files that PoCL makes while it compiles, under the names that it gives them, are gone within minutes.
-void sweep(const fs::path& folder) {
-  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(1);
-  std::error_code error;
-  fs::directory_iterator file(folder, error);
-  for (; !error && file != fs::directory_iterator(); file.increment(error)) {
-    const std::string name = file->path().filename().string();
-    if (name.rfind("tempfile", 0) != 0 && name.rfind("whittle-", 0) != 0) continue;
-    std::error_code gone;
-    const auto written = file->last_write_time(gone);
-    if (!gone && file->is_regular_file(gone) && written < old && name != kTurnsFile)
-      fs::remove(file->path(), gone);
-  }
+/// Files that PoCL makes while it compiles, under the names that it gives them, and our probes.
+bool isLeftover(const std::string& name) {
+  return name.starts_with("tempfile") || (name.starts_with("whittle-") && name != kTurnsFile);
 }
 
 void settle(const fs::path& folder) {
   std::error_code error;
   const fs::path whole = fs::absolute(folder, error);
   ::setenv(kVariable, (error ? folder : whole).c_str(), 1);
-  sweep(folder);
+  sweepOldFiles(folder, isLeftover);
 }
 
 }  // namespace

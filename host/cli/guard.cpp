@@ -1,11 +1,9 @@
 // The guard's waiting, and what it says of an end.
 #include "cli/guard.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,6 +20,7 @@
 #include "cli/speech.h"
 #include "cli/starvation.h"
 #include "scene/byte_counts.h"
+#include "scene/machine_memory.h"
 
 namespace whittle::cli {
 namespace {

@@ -73,7 +73,6 @@ void OutputCheck::reads(const fs::path& file) {
 }
 
 void OutputCheck::claim(const std::string& option, const fs::path& file) {
-  if (isStream(file)) return;
   for (const fs::path& input : inputs_)
     if (isSame(input, file)) refuseInput(option, file);
   for (const Claim& other : claims_)
@@ -86,7 +85,6 @@ void OutputCheck::picture(const std::string& option, const fs::path& file) {
   if (file.empty()) throw InputError(fmt::format("{}: its value is empty; it names a file", option));
   try {
     checkWritable(file);
-    tryFolder(file);
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: {}", option, e.what()));
   }
@@ -95,6 +93,7 @@ void OutputCheck::picture(const std::string& option, const fs::path& file) {
     throw InputError(fmt::format("{}: {}: a JPEG has at most {} pixels to a side; .png and .exr have more",
                                  option, file.string(), kLargestJpeg));
   claim(option, file);
+  tryFolder(file);
 }
 
 void OutputCheck::text(const std::string& option, const fs::path& file) {
@@ -105,12 +104,14 @@ void OutputCheck::text(const std::string& option, const fs::path& file) {
     standardOutputUsed_ = true;
     return;
   }
+  if (isStream(file)) return;  // written to as it is; its folder takes no part in that
   try {
-    if (!isStream(file)) tryFolder(file);
+    checkFolderWritable(file);
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: {}", option, e.what()));
   }
   claim(option, file);
+  tryFolder(file);
 }
 
 Look lookOf(const FloatImage& radiance, const Scene& scene, const Settings& settings,

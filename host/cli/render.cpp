@@ -20,12 +20,12 @@
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/speech.h"
-#include "cli/starvation.h"
 #include "render/peak_memory.h"
 #include "render/renderer.h"
 #include "report/profile_table.h"
 #include "report/text.h"
 #include "scene/byte_counts.h"
+#include "scene/machine_memory.h"
 
 namespace whittle::cli {
 namespace {

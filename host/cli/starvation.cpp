@@ -1,8 +1,6 @@
 // Reads /proc; where that has nothing to say (another system, another user's process), nothing is starved.
 #include "cli/starvation.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -76,12 +74,6 @@ Activity activityOf(pid_t process) {
 }
 
 }  // namespace
-
-std::optional<std::uint64_t> addressLimit() {
-  rlimit limit{};
-  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return {};
-  return limit.rlim_cur;
-}
 
 bool Starvation::isStarved(pid_t process, std::uint64_t limit) {
   constexpr auto kLong = std::chrono::seconds(1);

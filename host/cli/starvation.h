@@ -6,12 +6,8 @@
 
 #include <chrono>
 #include <cstdint>
-#include <optional>
 
 namespace whittle::cli {
-
-/// Bytes of addresses that a process may have (ulimit -v, RLIMIT_AS); unset: as many as there are.
-std::optional<std::uint64_t> addressLimit();
 
 /// Looks at one process from time to time, by what /proc says of it.
 class Starvation {

@@ -102,9 +102,10 @@ GeometrySums sumGeometry(const Document& document, const Hierarchy& hierarchy) {
 GeometrySums holdGeometry(Document& document, const Hierarchy& hierarchy, std::uint64_t triangleBytes) {
   const GeometrySums sums = sumGeometry(document, hierarchy);
   const auto bytes = [](double b) { return static_cast<std::uint64_t>(std::min(b, 9e18)); };
-  const std::string what = sums.triangles < 1e6
-                               ? fmt::format("its {:.0f} triangles", sums.triangles)
-                               : fmt::format("its {:.4g} million triangles", sums.triangles / 1e6);
+  const std::string what = sums.triangles < 1e6 ? fmt::format("its {:.0f} triangles", sums.triangles)
+                           : sums.triangles < 1e10
+                               ? fmt::format("its {:.4g} million triangles", sums.triangles / 1e6)
+                               : fmt::format("its {:.3g} triangles", sums.triangles);
   document.checkReads(sums.reads, "its meshes");
   document.hold(bytes(sums.sceneBytes), what);
   document.pass(bytes(sums.meshBytes + sums.largestMesh), what);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "image/byte_order.h"
 #include "scene/input_error.h"
 
 namespace whittle {
@@ -18,13 +19,7 @@ class Rest {
 
   bool empty() const { return text_.empty(); }
 
-  /// Little-endian.
-  std::uint32_t integer() {
-    const std::string_view four = take(4);
-    std::uint32_t value = 0;
-    for (std::size_t i = four.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(four[i]);
-    return value;
-  }
+  std::uint32_t integer() { return littleEndian(std::as_bytes(std::span(take(4)))); }
 
   /// Up to a zero, which is taken too.
   std::string_view name() {

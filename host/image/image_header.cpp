@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "image/byte_order.h"
 #include "image/image_io.h"
 #include "scene/input_error.h"
 
@@ -17,17 +18,12 @@ bool startsWith(Bytes bytes, std::size_t at, std::string_view magic) {
   return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
 }
 
-/// `count` bytes at `at`, which must be there.
+// `count` bytes at `at`, which must be there.
 std::uint32_t big(Bytes bytes, std::size_t at, std::size_t count) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < count; ++i) value = value << 8U | std::to_integer<std::uint32_t>(bytes[at + i]);
-  return value;
+  return bigEndian(bytes.subspan(at, count));
 }
-
 std::uint32_t little(Bytes bytes, std::size_t at, std::size_t count) {
-  std::uint32_t value = 0;
-  for (std::size_t i = count; i-- > 0;) value = value << 8U | std::to_integer<std::uint32_t>(bytes[at + i]);
-  return value;
+  return littleEndian(bytes.subspan(at, count));
 }
 
 std::optional<ImageHeader> pngHeader(Bytes bytes) {

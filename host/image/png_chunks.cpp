@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "image/byte_order.h"
 #include "scene/input_error.h"
 
 namespace whittle {
@@ -35,12 +36,6 @@ std::uint32_t crc32(std::span<const std::byte> bytes) {
   return ~crc;
 }
 
-std::uint32_t bigEndian(std::span<const std::byte> bytes) {
-  std::uint32_t value = 0;
-  for (int i = 0; i < 4; ++i) value = value << 8U | std::to_integer<std::uint32_t>(bytes[i]);
-  return value;
-}
-
 /// One chunk, whole, in front of what follows it.
 struct Chunk {
   std::string_view type;
@@ -51,11 +46,11 @@ struct Chunk {
 
 /// The chunk that `rest` begins with; empty where it is cut off.
 std::optional<Chunk> firstChunk(std::span<const std::byte> rest) {
-  const std::size_t length = rest.size() < kFrameBytes ? 0 : bigEndian(rest);
+  const std::size_t length = rest.size() < kFrameBytes ? 0 : bigEndian(rest.first(4));
   if (rest.size() < kFrameBytes + length) return std::nullopt;
   return Chunk{{reinterpret_cast<const char*>(rest.data()) + 4, 4},
                rest.subspan(8, length),
-               crc32(rest.subspan(4, 4 + length)) == bigEndian(rest.subspan(8 + length)),
+               crc32(rest.subspan(4, 4 + length)) == bigEndian(rest.subspan(8 + length, 4)),
                kFrameBytes + length};
 }
 
@@ -95,7 +90,7 @@ std::optional<double> gammaExponent(std::span<const std::byte> bytes) {
     if (chunk->isIntact) {
       if (std::find(kGoBefore.begin(), kGoBefore.end(), chunk->type) != kGoBefore.end()) return std::nullopt;
       if (chunk->type == "gAMA" && chunk->data.size() == 4) {
-        const double gamma = bigEndian(chunk->data) / kUnit;
+        const double gamma = bigEndian(chunk->data.first(4)) / kUnit;
         if (gamma > 0 && std::abs(gamma - kUsual) > kNear) exponent = 1 / gamma;
       }
     }

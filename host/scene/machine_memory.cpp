@@ -84,6 +84,8 @@ std::optional<std::uint64_t> freeMemory(const fs::path& root) {
   return least;
 }
 
+std::optional<std::uint64_t> addressLimit() { return ownLimit(RLIMIT_AS); }
+
 /// Of the addresses that a process may have, what programs and stacks of threads map and never touch.
 /// Libraries that get less fail in ways of their own, and one waits for ever.
 constexpr std::uint64_t kMappedBytes = 400'000'000;
@@ -97,8 +99,7 @@ void returnFreedMemory() {
 MemoryLimit memoryLimitOfMachine() {
   const std::optional<std::uint64_t> machine = freeMemory();
   std::optional<std::uint64_t> least = machine;
-  if (const auto addresses = ownLimit(RLIMIT_AS))
-    lower(least, *addresses - std::min(*addresses, kMappedBytes));
+  if (const auto addresses = addressLimit()) lower(least, *addresses - std::min(*addresses, kMappedBytes));
   lower(least, ownLimit(RLIMIT_DATA));
   if (!least) return {std::numeric_limits<std::uint64_t>::max(), false};
   return {*least / 5 * 4, false, !machine || *least < *machine};

@@ -13,6 +13,9 @@ namespace whittle {
 /// say; nothing where they say nothing.
 std::optional<std::uint64_t> freeMemory(const std::filesystem::path& root = "/");
 
+/// Bytes of addresses that this process may have (ulimit -v, RLIMIT_AS); unset: as many as there are.
+std::optional<std::uint64_t> addressLimit();
+
 /// The default of --memory-limit: four fifths of the least of freeMemory() and the process's own limits
 /// (RLIMIT_AS, RLIMIT_DATA), the rest being for the others.
 MemoryLimit memoryLimitOfMachine();

@@ -38,8 +38,12 @@ void MemoryBudget::check(std::uint64_t before, std::uint64_t bytes, std::string_
     whose = limit < limit_.bytes ? fmt::format(" for input of {}", formatBytes(fileBytes_))
             : limit_.isUlimit    ? " of what ulimit leaves the program"
                                  : " on this machine";
+  const bool looksAlike = formatBytes(total) == formatBytes(limit);
+  const auto shown = [&](std::uint64_t b) {
+    return looksAlike ? fmt::format("{} bytes", b) : formatBytes(b);
+  };
   throw InputError(fmt::format("{} would take {}, {} with all else; the limit is {}{}: {} allows more", what,
-                               formatBytes(bytes), formatBytes(total), formatBytes(limit), whose,
+                               formatBytes(bytes), shown(total), shown(limit), whose,
                                limit_.isChosen                            ? "a larger --memory-limit"
                                : limit_.isUlimit && limit == limit_.bytes ? "a larger ulimit -v or -d"
                                                                           : "--memory-limit SIZE"));

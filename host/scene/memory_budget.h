@@ -36,11 +36,9 @@ class MemoryBudget {
   /// Throws InputError where a file without --memory-limit asks for that many values to be read, again and
   /// again the same mostly: a small one shall not take long either.
   void checkReads(double values, std::string_view what) const;
-  void release(std::uint64_t bytes) { held_ -= bytes < held_ ? bytes : held_; }
   /// Bytes of a file that is read: they raise what the scene may take.
   void sawFile(std::uint64_t bytes) { fileBytes_ += bytes; }
 
-  std::uint64_t held() const { return held_; }
   /// The most that was held or passed at once.
   std::uint64_t peak() const { return peak_; }
 

@@ -38,21 +38,6 @@ fs::path followLink(const fs::path& path) {
 
 constexpr const char *kPartBegin = ".whittle-", *kPartEnd = ".part";
 
-/// Parts that killed processes left. Perhaps of another machine's, so by their age: they are written in one
-/// go.
-void sweepParts(const fs::path& folder) {
-  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(1);
-  std::error_code error;
-  fs::directory_iterator file(folder, error);
-  for (; !error && file != fs::directory_iterator(); file.increment(error)) {
-    const std::string name = file->path().filename().string();
-    if (name.rfind(kPartBegin, 0) != 0 || file->path().extension() != kPartEnd) continue;
-    std::error_code gone;
-    const auto written = file->last_write_time(gone);
-    if (!gone && written < old) fs::remove(file->path(), gone);
-  }
-}
-
 /// A file of its own that goes away again unless it became the target. It has no name while it is written
 /// (O_TMPFILE), so that nothing stays behind whatever ends the process; where the file system knows no such
 /// files it has one from the beginning.
@@ -145,11 +130,25 @@ void checkFolderWritable(const fs::path& path) {
   }
 }
 
+void sweepOldFiles(const fs::path& folder, const std::function<bool(const std::string& name)>& isOurs) {
+  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  std::error_code error;
+  fs::directory_iterator file(folder, error);
+  for (; !error && file != fs::directory_iterator(); file.increment(error)) {
+    if (!isOurs(file->path().filename().string())) continue;
+    std::error_code gone;
+    const auto written = file->last_write_time(gone);
+    if (!gone && file->is_regular_file(gone) && written < old) fs::remove(file->path(), gone);
+  }
+}
+
 void tryFolder(const fs::path& path) {
   checkFolderWritable(path);
   static constexpr std::array<std::byte, 4096> kLittle{};
   TemporaryFile(followLink(path)).write(kLittle);
-  sweepParts(folderOf(followLink(path)));
+  sweepOldFiles(folderOf(followLink(path)), [](const std::string& name) {
+    return name.starts_with(kPartBegin) && name.ends_with(kPartEnd);
+  });
 }
 
 }  // namespace whittle

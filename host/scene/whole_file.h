@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <stdexcept>
+#include <string>
 
 namespace whittle {
 
@@ -21,6 +23,12 @@ void writeWholeFile(const std::filesystem::path& path, std::span<const std::byte
 /// Throws InputError unless the folder of `path` exists and may be written to, and `path` itself is no
 /// folder.
 void checkFolderWritable(const std::filesystem::path& path);
+
+/// Takes away the regular files directly in `folder` whose names are `isOurs` and that nobody has written to
+/// for an hour: whoever made them was killed. By their age, since they may be another machine's. What cannot
+/// be looked at or removed stays.
+void sweepOldFiles(const std::filesystem::path& folder,
+                   const std::function<bool(const std::string& name)>& isOurs);
 
 /// Writes a little beside `path` and takes it away again: a full disk, a used-up quota and a file system that
 /// is read-only show before the work and not after it. Sweeps what killed writers left in the folder an hour

@@ -24,7 +24,7 @@ struct FilmPart {
 /// Puts the mean of each pixel's samples into `image`, RGB; 0 where a pixel has none.
 void resolveFilm(const FilmPart& part, const SampleCounts& counts, FloatImage& image);
 
-/// For each block of pixels, the sum over them of the variance of the pixel's mean, averaged over the
+/// Adds to each block of pixels the sum over those of the part of the variance of the pixel's mean, averaged over the
 /// channels, (W/(m² sr))². Needs planes of more than one sample; infinite for a block with fewer than two
 /// samples. It is what independent samples would give; stratified and Sobol samples do better than it says.
 void addBlockVariances(const FilmPart& part, const SampleCounts& counts, std::vector<double>& variances);

@@ -122,12 +122,5 @@ TEST(Compute, UnknownBuildOptionsAreAnErrorThatNamesThem) {
   EXPECT_TRUE(contains(message, "-this-is-no-option")) << message;
 }
 
-TEST(FormatBytes, ForPeople) {
-  EXPECT_EQ(formatBytes(0), "0 B");
-  EXPECT_EQ(formatBytes(999), "999 B");
-  EXPECT_EQ(formatBytes(12'500'000), "12.5 MB");
-  EXPECT_EQ(formatBytes(2'000'000'000), "2 GB");
-}
-
 }  // namespace
 }  // namespace whittle

@@ -26,4 +26,14 @@ __kernel void accumulate(const uint first, const uint count, const uint capacity
   for (uint k = i; k < count && as_uint(slots[k]) == slot; ++k)
     sum += loadPlanes3(rays, capacity, RAY_THROUGHPUT, first + k) * loadPlanes3(entryRadiance, capacity, 0, k);
   storePlanes3(sampleRadiance, capacity, 0, slot, sum);
+#if HAS(COVERAGE)
+  __global const float* own = entryRadiance + (size_t)RADIANCE_TRANSMITTANCE * capacity;
+  __global float* transmittance = sampleRadiance + (size_t)RADIANCE_TRANSMITTANCE * capacity + slot;
+  float clear = *transmittance;
+  for (uint k = i; k < count && as_uint(slots[k]) == slot; ++k) {
+    const float3 throughput = loadPlanes3(rays, capacity, RAY_THROUGHPUT, first + k);
+    clear += (throughput.x + throughput.y + throughput.z) * (1.0f / 3.0f) * own[k];
+  }
+  *transmittance = clear;
+#endif
 }

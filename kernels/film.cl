@@ -21,6 +21,20 @@ INLINE Real loadSlots(__global const float* plane, uint first, uint step, uint a
   return LOAD(own);
 }
 
+/// The film's sums: RGB, the mean of their squares, the transmittance; and the planes where they are.
+#define SUM_SQUARES 3
+#define SUM_TRANSMITTANCE 4
+#define FILM_SUMS (HAS(COVERAGE) ? 5 : 4)
+
+INLINE uint planeOfSum(int c) {
+  return c < SUM_SQUARES ? FILM_SUM + c : (c == SUM_SQUARES ? FILM_SQUARES : FILM_TRANSMITTANCE);
+}
+
+INLINE uint planeOfCompensation(int c) {
+  return c < SUM_SQUARES ? FILM_COMPENSATION + c
+                         : (c == SUM_SQUARES ? FILM_SQUARES_COMPENSATION : FILM_TRANSMITTANCE_COMPENSATION);
+}
+
 INLINE void storeActive(Real value, __global float* to, uint active) {
   if (active == LANES) {
     STORE(value, to);
@@ -42,18 +56,17 @@ __kernel void film(
   const uint active = batch.pixels - k < LANES ? batch.pixels - k : LANES;
   const uint pixel = batch.firstPixel + k;
   __global float* own = sums + (blocks ? blocks[pixel / FILM_BLOCK] * FILM_BLOCK + pixel % FILM_BLOCK : pixel);
-  Real sum[4], compensation[4];
-  for (int c = 0; c < 4; ++c) {
+  Real sum[FILM_SUMS], compensation[FILM_SUMS];
+  for (int c = 0; c < FILM_SUMS; ++c) {
     // Before the first sample the film is 0.
     sum[c] = compensation[c] = (Real)(0.0f);
     if (batch.firstSample == 0) continue;
-    sum[c] = loadSlots(own + (size_t)(c < 3 ? FILM_SUM + c : FILM_SQUARES) * pixels, 0, 1, active);
-    compensation[c] = loadSlots(own + (size_t)(c < 3 ? FILM_COMPENSATION + c : FILM_SQUARES_COMPENSATION) * pixels, 0,
-                                1, active);
+    sum[c] = loadSlots(own + (size_t)planeOfSum(c) * pixels, 0, 1, active);
+    compensation[c] = loadSlots(own + (size_t)planeOfCompensation(c) * pixels, 0, 1, active);
   }
   for (uint s = 0; s < batch.samples; ++s) {
     const uint slot = k * batch.samples + s;
-    Real value[4];
+    Real value[FILM_SUMS];
     for (int c = 0; c < 3; ++c)
       value[c] = loadSlots(sampleRadiance + (size_t)c * capacity, slot, batch.samples, active);
     const Mask finite = isfinite(value[0]) & isfinite(value[1]) & isfinite(value[2]);
@@ -63,21 +76,27 @@ __kernel void film(
       for (uint lane = 0; lane < active; ++lane)
         if (lost[lane]) atomic_inc(counters + COUNTER_NONFINITE);
     }
-    value[3] = (value[0] * value[0] + value[1] * value[1] + value[2] * value[2]) * (1.0f / 3.0f);
-    for (int c = 0; c < 4; ++c) {
+    value[SUM_SQUARES] = (value[0] * value[0] + value[1] * value[1] + value[2] * value[2]) * (1.0f / 3.0f);
+#if HAS(COVERAGE)
+    value[SUM_TRANSMITTANCE] = loadSlots(sampleRadiance + (size_t)RADIANCE_TRANSMITTANCE * capacity, slot,
+                                         batch.samples, active);
+#endif
+    for (int c = 0; c < FILM_SUMS; ++c) {
       Real after = sum[c], lacking = compensation[c];
       compensatedAdd(&after, value[c], &lacking);
       sum[c] = finite ? after : sum[c];
       compensation[c] = finite ? lacking : compensation[c];
     }
   }
-  if (planes == FILM_PLANES_OF_ONE) {
+  if (planes < FILM_PLANES) {
     for (int c = 0; c < 3; ++c) storeActive(sum[c], own + (size_t)(FILM_SUM + c) * pixels, active);
+#if HAS(COVERAGE)
+    storeActive(sum[SUM_TRANSMITTANCE], own + (size_t)FILM_TRANSMITTANCE_OF_ONE * pixels, active);
+#endif
     return;
   }
-  for (int c = 0; c < 4; ++c) {
-    storeActive(sum[c], own + (size_t)(c < 3 ? FILM_SUM + c : FILM_SQUARES) * pixels, active);
-    storeActive(compensation[c], own + (size_t)(c < 3 ? FILM_COMPENSATION + c : FILM_SQUARES_COMPENSATION) * pixels,
-                active);
+  for (int c = 0; c < FILM_SUMS; ++c) {
+    storeActive(sum[c], own + (size_t)planeOfSum(c) * pixels, active);
+    storeActive(compensation[c], own + (size_t)planeOfCompensation(c) * pixels, active);
   }
 }

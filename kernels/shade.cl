@@ -228,7 +228,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
                     const uint count, const uint capacity, const uint bounce, const uint lastBounce, const uint width,
                     const uint pixels, __global const uint* pixelOrder, __global const float* rays,
                     __global const float* hits,
-                    __global float* entryRadiance,  // [3][capacity] of the segment's entries
+                    __global float* entryRadiance,  // [RADIANCE_PLANES…][capacity] of the segment's entries
                     __global float* shadows,        // [SHADOW_PLANES][capacity]
                     __global float* impulses,       // [IMPULSES_OF_HIT IMPULSE_PLANES][capacity]
                     __global uchar* flags,          // [capacity] ENTRY_…
@@ -255,8 +255,15 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #endif
   Natural found = (Natural)(0);
   Real3 radiance = same3((float3)(0.0f));
+#if HAS(COVERAGE)
+  const Mask clear = !a.hit & comeFromEye(rays, first + i, capacity, bounce) & ((Natural)(own.backgroundClear) == 1u);
+  STORE(clear ? (Real)(1.0f) : (Real)(0.0f), entryRadiance + (size_t)RADIANCE_TRANSMITTANCE * capacity + i);
+#endif
 #if HAS(BACKGROUND)
   radiance = backgroundAlong(&scene, &own, a.d, !a.hit);
+#if HAS(COVERAGE)
+  radiance = choose3(clear, same3((float3)(0.0f)), radiance);
+#endif
 #endif
   Surfel s;
   if (some(a.hit)) {

@@ -208,6 +208,7 @@ std::vector<Question> cameraQuestions(const Needs& n) {
       {F::FAR_PLANE, n.settings.clipFar && n.camera() && std::isfinite(n.camera()->zfar),
        n.settings.clipFar ? "the camera has no far plane" : "the far plane is not asked for", true},
       {F::FIXED_RAY_OFFSET, n.settings.rayOffset.has_value(), "the ray offset is derived at each hit"},
+      {F::COVERAGE, n.settings.alpha, "no alpha channel was asked for", true},
       {F::AOVS, n.settings.aovs, "no auxiliary output was asked for", true},
   };
 }

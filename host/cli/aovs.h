@@ -31,13 +31,13 @@ AovOutput parseAov(const std::string& text, const std::vector<std::string>& name
 /// readers drop.
 std::vector<std::string> channelNamesOf(const std::string& aov);
 
-/// The picture as R, G, B and every output under its channel names, interleaved; all of one size. `names`:
-/// those of the channels, in their order.
-FloatImage layered(const FloatImage& radiance, const std::map<std::string, FloatImage>& aovs,
-                   std::vector<std::string>& names);
+/// The picture as R, G, B, A where it has an alpha, and every output under its channel names, interleaved;
+/// all of one size. `names`: those of the channels, in their order.
+FloatImage layered(const FloatImage& radiance, const FloatImage& alpha,
+                   const std::map<std::string, FloatImage>& aovs, std::vector<std::string>& names);
 
 /// One output, or all of them. `aovs` has those that the command knows. Throws as writeExr.
-void writeAov(const AovOutput& output, const FloatImage& radiance,
+void writeAov(const AovOutput& output, const FloatImage& radiance, const FloatImage& alpha,
               const std::map<std::string, FloatImage>& aovs, const ImageMetadata& metadata);
 
 }  // namespace whittle::cli

@@ -118,6 +118,11 @@ void applyBackground(Scene& scene, const std::string& text, const Settings& sett
   if (!text.empty()) scene.background = parseBackground(text, budget, notices);
   scene.background.radiance *= settings.backgroundStrength;
   scene.background.rotation = settings.backgroundRotation;
+  const bool isBlack = scene.background.radiance == glm::vec3(0.0F);
+  if (settings.backgroundStrength != 1.0F && isBlack && settings.backgroundStrength > 0.0F)
+    notices.note("--background-strength changes nothing: what surrounds the scene is black");
+  if (settings.backgroundRotation != 0.0 && (isBlack || scene.background.map.empty()))
+    notices.note("--background-rotation changes nothing: what surrounds the scene is the same all around");
 }
 
 }  // namespace whittle::cli

@@ -43,7 +43,7 @@ void runInfo(InfoOptions& o) {
   Notices notices;
   notices.notes = uselessOptions(o.settings);
   MemoryBudget budget = budgetOf(o.scene);
-  const Scene scene = loadScene(o.scene, {{kTriangleBytes, 0}}, o.settings, budget, notices);
+  const Scene scene = loadScene(o.scene, {kTriangleBytes}, o.settings, budget, notices);
   findCamera(scene, o.settings.camera);
   warnIfAny(settleKernelCache());
   prepareCpuThreads(o.settings.threads, o.settings.workGroup);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <limits>
 
 namespace whittle::cli {
 namespace {
@@ -34,12 +35,34 @@ std::int64_t parseWhole(const std::string& option, const std::string& text, std:
   return value;
 }
 
+namespace {
+
+[[noreturn]] void refuseReal(const std::string& option, const std::string& text, const std::string& expected,
+                             double low, double high) {
+  const bool anyWill = high == std::numeric_limits<double>::max() && low == -high;
+  throw InputError(fmt::format("{}: '{}' is {} number{}", option, text, expected,
+                               anyWill ? "" : fmt::format(" from {:g} to {:g}", low, high)));
+}
+
+/// Written so that NaN is out of range.
+bool isReal(const std::string& text, double low, double high, double& value) {
+  return parseWholly(text, value) && value >= low && value <= high;
+}
+
+}  // namespace
+
 double parseReal(const std::string& option, const std::string& text, double low, double high) {
   double value = 0.0;
-  // Written so that NaN is out of range.
-  if (!parseWholly(text, value) || !(value >= low && value <= high))
-    throw InputError(fmt::format("{}: '{}' is not a number from {:g} to {:g}", option, text, low, high));
+  if (!isReal(text, low, high, value)) refuseReal(option, text, "not a", low, high);
   return value;
+}
+
+std::optional<float> parseRealOrAuto(const std::string& option, const std::string& text, double low,
+                                     double high) {
+  if (text == "auto") return std::nullopt;
+  double value = 0.0;
+  if (!isReal(text, low, high, value)) refuseReal(option, text, "neither auto nor a", low, high);
+  return static_cast<float>(value);
 }
 
 CLI::Option* addFile(CLI::App& command, const std::string& name, std::filesystem::path& value,

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ inline bool given(const CLI::Option* option) { return option && option->count() 
 std::int64_t parseWhole(const std::string& option, const std::string& text, std::int64_t low,
                         std::int64_t high);
 double parseReal(const std::string& option, const std::string& text, double low, double high);
+/// The same, or nothing for "auto".
+std::optional<float> parseRealOrAuto(const std::string& option, const std::string& text, double low,
+                                     double high);
 
 template <typename T>
 CLI::Option* addWhole(CLI::App& command, const std::string& name, T& value, std::int64_t low,

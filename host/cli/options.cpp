@@ -24,6 +24,12 @@
 #include "scene/machine_memory.h"
 
 namespace whittle::cli {
+namespace {
+
+/// Of --memory-limit: whoever asks for less has left out the unit.
+constexpr std::uint64_t kLeastLimit = 1'000'000;
+
+}  // namespace
 
 void addSceneOptions(CLI::App& c, SceneOptions& o) {
   c.option_defaults()->group("Scene");
@@ -55,6 +61,11 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
             const auto bytes = parseBytes(word);
             if (!bytes)
               throw InputError(fmt::format("--memory-limit: '{}' is not a size such as 500M or 4G", word));
+            if (*bytes < kLeastLimit)
+              throw InputError(
+                  fmt::format("--memory-limit: '{}' is {}, less than anything takes; sizes have units: "
+                              "500M, 4G",
+                              word, formatBytes(*bytes)));
             o.memory = MemoryLimit{*bytes, true};
           },
           {"SIZE", "refuse what would take more memory than this, before it is taken: 500M, 4G, 2GiB",
@@ -71,11 +82,7 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
                                 {"NAME|INDEX", "camera of the scene, or the node that has it", s.camera});
   addViewpointOptions(c, o.view, camera);
   addText(c, "--exposure",
-          [&s](const std::string& word) {
-            s.exposure = word == "auto"
-                             ? std::nullopt
-                             : std::optional(static_cast<float>(parseReal("--exposure", word, -60, 60)));
-          },
+          [&s](const std::string& word) { s.exposure = parseRealOrAuto("--exposure", word, -60, 60); },
           {"auto|STOPS", "brightness of .png and .jpg; auto changes it only where the picture does not fit",
            "auto"});
   addChoice(c, "--tone-map", s.toneMap,
@@ -96,20 +103,19 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
            "surfaces that a ray may pass straight on, besides its bounces: blended or clear ones");
   addChoice(c, "--back-faces", s.backFaces,
             "backs of single-sided surfaces that light does not pass; shadow rays meet them in any case");
+  c.add_flag("--alpha", s.alpha,
+             "give .png and .exr an alpha channel: the background is left out where it is seen straight on, "
+             "and shows "
+             "in mirrors and refracted only [off]");
   c.add_flag("--clip-far", s.clipFar,
              "show nothing beyond the camera's zfar; many tools write one that means nothing [off]");
-  addText(c, "--ambient",
-          [&s](const std::string& word) {
-            s.ambient =
-                word == "auto"
-                    ? std::nullopt
-                    : std::optional(static_cast<float>(parseReal("--ambient", word, 0, kLargestAmbient)));
-          },
-          {"auto|X",
-           "Whitted's ambient term: radiance in W/(m² sr) that surfaces receive from all sides, unshadowed; "
-           "auto: "
-           "a tenth of the scene's light",
-           "0"});
+  addText(
+      c, "--ambient",
+      [&s](const std::string& word) { s.ambient = parseRealOrAuto("--ambient", word, 0, kLargestAmbient); },
+      {"auto|X",
+       "Whitted's ambient term: radiance in W/(m² sr) that surfaces receive from all sides, unshadowed; "
+       "auto: a tenth of the scene's light",
+       "0"});
   addReal(c, "--cutoff", s.cutoff, 0, kLargestCutoff, "T",
           "trace no mirror or glass ray whose share of the picture (throughput) is at most this in every "
           "colour; --stats says what that and the limits of depth can cost (biasBound beside meanRadiance)",
@@ -194,7 +200,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   if (hasSize) holdPicture();
   LoadOptions load;
   load.memory = &budget;
-  load.later = costs.scene;
+  load.laterTriangleBytes = costs.triangleBytes;
   load.camera = settings.camera;
   load.viewpoint = chosenViewpoint(options.view);
   if (hasSize) load.aspect = static_cast<double>(settings.width) / settings.height;

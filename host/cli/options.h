@@ -40,8 +40,8 @@ std::vector<std::string> uselessOptions(const Settings& settings);
 
 /// What a command will take beside the scene.
 struct CommandCosts {
-  LaterCosts scene;
-  std::uint64_t programBytes = 0;  ///< whatever is loaded
+  std::uint64_t triangleBytes = 0;  ///< see LoadOptions::laterTriangleBytes
+  std::uint64_t programBytes = 0;   ///< whatever is loaded
   std::uint64_t (*picture)(const Settings&) = [](const Settings&) { return std::uint64_t{0}; };
 };
 

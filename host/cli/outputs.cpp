@@ -29,6 +29,8 @@ bool hasExtension(const fs::path& file, std::initializer_list<const char*> names
   return std::find(names.begin(), names.end(), extension) != names.end();
 }
 
+bool isJpeg(const fs::path& file) { return hasExtension(file, {".jpg", ".jpeg"}); }
+
 /// What libjpeg can write (JPEG_MAX_DIMENSION); beyond it, it ends the process.
 constexpr int kLargestJpeg = 65500;
 
@@ -89,11 +91,18 @@ void OutputCheck::picture(const std::string& option, const fs::path& file) {
     throw InputError(fmt::format("{}: {}", option, e.what()));
   }
   if (isStream(file)) throw InputError(fmt::format("{}: {} is not a regular file", option, file.string()));
-  if (hasExtension(file, {".jpg", ".jpeg"}) && std::max(width_, height_) > kLargestJpeg)
+  if (isJpeg(file) && std::max(width_, height_) > kLargestJpeg)
     throw InputError(fmt::format("{}: {}: a JPEG has at most {} pixels to a side; .png and .exr have more",
                                  option, file.string(), kLargestJpeg));
   claim(option, file);
   tryFolder(file);
+}
+
+void OutputCheck::alpha(const std::vector<fs::path>& pictures) const {
+  for (const fs::path& file : pictures)
+    if (isJpeg(file))
+      throw InputError(
+          fmt::format("--alpha: {}: a JPEG has no alpha channel; .png and .exr have one", file.string()));
 }
 
 void OutputCheck::text(const std::string& option, const fs::path& file) {
@@ -134,18 +143,25 @@ Look lookOf(const FloatImage& radiance, const Scene& scene, const Settings& sett
   return look;
 }
 
-void writePicture(const fs::path& file, const FloatImage& radiance, const Look& look,
+void writePicture(const fs::path& file, const FloatImage& radiance, const FloatImage& alpha, const Look& look,
                   const ImageMetadata& metadata) {
+  const bool opaque = alpha.pixels.empty();
   if (isExr(file))
-    writeExr(file, radiance, metadata);
+    writeExr(file, opaque ? radiance : joined({&radiance, &alpha}), metadata);
+  else if (opaque)
+    writeCodes(file,
+               {radiance.width, radiance.height, 3, toneMap(radiance, look.stops, nullptr, look.rollsOff)},
+               metadata);
   else
-    writeRgb8(file, radiance.width, radiance.height, toneMap(radiance, look.stops, nullptr, look.rollsOff),
-              metadata);
+    writeCodes(
+        file,
+        {radiance.width, radiance.height, 4, toneMapWithAlpha(radiance, alpha, look.stops, look.rollsOff)},
+        metadata);
 }
 
 bool isExr(const fs::path& file) { return hasExtension(file, {".exr"}); }
 
-bool isToneMapped(const fs::path& file) { return hasExtension(file, {".png", ".jpg", ".jpeg"}); }
+bool isToneMapped(const fs::path& file) { return isJpeg(file) || hasExtension(file, {".png"}); }
 
 bool isStandardOutput(const fs::path& file) { return file == "-"; }
 

@@ -22,6 +22,8 @@ class OutputCheck {
 
   /// Throws InputError unless `file` can be written as a picture, and is not named twice.
   void picture(const std::string& option, const std::filesystem::path& file);
+  /// Throws InputError where --alpha is asked for and a picture has no place for it.
+  void alpha(const std::vector<std::filesystem::path>& pictures) const;
   /// The same for a text file; an empty path is no file.
   void text(const std::string& option, const std::filesystem::path& file);
 
@@ -49,9 +51,10 @@ struct Look {
 Look lookOf(const FloatImage& radiance, const Scene& scene, const Settings& settings,
             const std::vector<std::filesystem::path>& outputs, bool quiet);
 
-/// .exr: linear floats; .png/.jpg: tone-mapped. `metadata` goes into the file.
-void writePicture(const std::filesystem::path& file, const FloatImage& radiance, const Look& look,
-                  const ImageMetadata& metadata);
+/// .exr: linear floats; .png/.jpg: tone-mapped. `alpha`: a channel that joins them, or no picture at all.
+/// `metadata` goes into the file.
+void writePicture(const std::filesystem::path& file, const FloatImage& radiance, const FloatImage& alpha,
+                  const Look& look, const ImageMetadata& metadata);
 
 bool isExr(const std::filesystem::path& file);
 

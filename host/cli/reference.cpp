@@ -37,6 +37,7 @@ OutputCheck checkOutputs(ReferenceOptions& o) {
   for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, kReferenceAovs));
   for (const auto& file : o.outputs) check.picture("--output", file);
   for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
+  if (o.settings.alpha) check.alpha(o.outputs);
   check.text("--stats", o.stats);
   return check;
 }
@@ -73,12 +74,13 @@ void writeResults(const ReferenceOptions& o, const Scene& scene, const Reference
   const Look look = lookOf(result.radiance, scene, o.settings, o.outputs, o.scene.quiet);
   nowDoing("writing pictures");
   for (const auto& file : o.outputs)
-    files.add(file, "", [&](const auto& to) { writePicture(to, result.radiance, look, metadata); });
+    files.add(file, "",
+              [&](const auto& to) { writePicture(to, result.radiance, result.alpha, look, metadata); });
   if (!o.aovs.empty()) {
     const std::map<std::string, FloatImage> aovs{{"depth", result.depth}, {"primitive", result.primitive}};
     for (const auto& aov : o.aovs)
       files.add(aov.file, fmt::format(" ({})", aov.name), [&](const auto& to) {
-        writeAov({aov.name, to}, result.radiance, aovs, metadata);
+        writeAov({aov.name, to}, result.radiance, result.alpha, aovs, metadata);
       });
   }
   nowDoing("");
@@ -92,8 +94,8 @@ int runReference(ReferenceOptions& o) {
   loadImageCodec();  // what fails, fails before the work
   Notices notices;
   MemoryBudget budget = budgetOf(o.scene);
-  const Scene scene = loadScene(o.scene, {{kReferenceTriangleBytes, 0}, 0, referencePictureBytes}, o.settings,
-                                budget, notices);
+  const Scene scene =
+      loadScene(o.scene, {kReferenceTriangleBytes, 0, referencePictureBytes}, o.settings, budget, notices);
   for (const auto& file : notices.files) check.reads(file);
   ProgressBar bar(o.scene.quiet);
   const auto start = std::chrono::steady_clock::now();

@@ -54,6 +54,7 @@ OutputCheck checkOutputs(RenderOptions& o) {
   for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, kRenderAovs));
   for (const auto& file : o.outputs) check.picture("--output", file);
   for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
+  if (o.settings.alpha) check.alpha(o.outputs);
   check.text("--stats", o.stats);
   check.text("--trace", o.trace);
   if (!o.kernelFolder.empty() && !std::filesystem::is_directory(o.kernelFolder))
@@ -81,7 +82,7 @@ FloatImage readReference(const RenderOptions& o) {
   return image;
 }
 
-RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, const FloatImage& reference,
+RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const FloatImage& reference,
                                 Trace* trace) {
   ProgressBar bar(o.scene.quiet);
   RenderHooks hooks;
@@ -90,6 +91,10 @@ RenderResult renderWithProgress(const Scene& scene, const RenderOptions& o, cons
   hooks.timeStages = o.profile || trace || !o.stats.empty();
   hooks.trace = trace;
   hooks.compiler = "/proc/self/exe";
+  hooks.imageUploaded = [&](std::size_t image) {
+    scene.images[image].texels = {};
+    scene.images[image].deepTexels = {};
+  };
   std::future<void> codec;  // loaded while kernels are compiled
   hooks.phase = [&](const std::string& text) {
     bar.phase(text);
@@ -163,10 +168,11 @@ void writeResults(const RenderOptions& o, const Scene& scene, RenderResult& resu
   const ImageMetadata metadata = pictureMetadata(o, result.stats);
   nowDoing("writing pictures");
   for (const auto& file : o.outputs)
-    files.add(file, "", [&](const auto& to) { writePicture(to, result.radiance, look, metadata); });
+    files.add(file, "",
+              [&](const auto& to) { writePicture(to, result.radiance, result.alpha, look, metadata); });
   for (const auto& aov : o.aovs)
     files.add(aov.file, fmt::format(" ({})", aov.name), [&](const auto& to) {
-      writeAov({aov.name, to}, result.radiance, result.aovs, metadata);
+      writeAov({aov.name, to}, result.radiance, result.alpha, result.aovs, metadata);
     });
   nowDoing("");
   result.stats.time.write = since(writing);
@@ -202,8 +208,8 @@ int runRender(RenderOptions& o) {
   Notices notices;
   notices.notes = uselessOptions(o.settings);
   MemoryBudget budget = budgetOf(o.scene);
-  const Scene scene = loadScene(o.scene, {{kTriangleBytes, kTexelBytes}, kRuntimeBytes, pictureBytes},
-                                o.settings, budget, notices);
+  Scene scene =
+      loadScene(o.scene, {kTriangleBytes, kRuntimeBytes, pictureBytes}, o.settings, budget, notices);
   for (const auto& file : notices.files) check.reads(file);
   if (trace) trace->phase("load", start);
   const double load = since(start);

@@ -73,7 +73,7 @@ std::optional<ImageHeader> ImageSources::header(std::size_t image) {
   }
 }
 
-void ImageSources::hold(const std::set<int>& materials, std::uint64_t texelBytes) {
+void ImageSources::hold(const std::set<int>& materials) {
   std::set<std::size_t> textures, images;
   for (const int material : materials)
     if (material >= 0) collectTextures(document_.json["materials"][at(material)], textures);
@@ -96,7 +96,6 @@ void ImageSources::hold(const std::set<int>& materials, std::uint64_t texelBytes
                   static_cast<double>(pixels) / 1e6);
   document_.pass(bytes + decoder, what);
   document_.hold(bytes, what);
-  document_.promise(texelBytes * pixels, what);
 }
 
 }  // namespace whittle::gltf

@@ -20,9 +20,8 @@ class ImageSources {
   std::size_t firstAlike(std::size_t image) const { return first_[image]; }
   /// The file that an image's URI means. Throws InputError, see fileOf.
   const std::filesystem::path& file(std::size_t image);
-  /// Holds what the images of these materials take, `texelBytes` more for each texel. Throws InputError where
-  /// that is too much.
-  void hold(const std::set<int>& materials, std::uint64_t texelBytes);
+  /// Holds what the images of these materials take. Throws InputError where that is too much.
+  void hold(const std::set<int>& materials);
 
  private:
   std::optional<ImageHeader> header(std::size_t image);

@@ -137,11 +137,10 @@ void readBackground(const Document& document, int sceneIndex, Scene& scene, Noti
 
 void load(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
   Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
-  const GeometrySums sums = holdGeometry(document, hierarchy, options.later.triangleBytes);
+  const GeometrySums sums = holdGeometry(document, hierarchy, options.laterTriangleBytes);
   settlePlace(document, hierarchy, notices);
   scene.origin = hierarchy.origin;
-  std::vector<int> materials =
-      readMaterials(document, usedMaterials(document, hierarchy), options.later.texelBytes, scene, notices);
+  std::vector<int> materials = readMaterials(document, usedMaterials(document, hierarchy), scene, notices);
   MeshLoader(document, hierarchy, sums, std::move(materials), scene, notices).addAll();
   readCameras(document, hierarchy, scene, notices);
   readLights(document, hierarchy, scene, notices);

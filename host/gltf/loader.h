@@ -12,12 +12,6 @@
 
 namespace whittle {
 
-/// What a scene will cost whoever asked for it, beside its own arrays: a file is refused for that as well.
-struct LaterCosts {
-  std::uint64_t triangleBytes = 0;
-  std::uint64_t texelBytes = 0;
-};
-
 struct LoadOptions {
   std::optional<std::string> sceneName;  ///< name or index; default: the file's default scene, else the first
   /// The studio's lights (studio.h) for a file without lights or background; unset: where a surface
@@ -30,7 +24,9 @@ struct LoadOptions {
   /// Width over height of the picture that an added camera frames the scene for; 0: 16:9.
   double aspect = 0.0;
   MemoryBudget* memory = nullptr;  ///< what it may take; null: what the machine has
-  LaterCosts later = {};
+  /// What each triangle will cost whoever asked for the scene, beside its own arrays: a file is refused for
+  /// that as well.
+  std::uint64_t laterTriangleBytes = 0;
 };
 
 /// Reads `path`. Throws InputError with one line if it cannot be used; says in `notices` what was ignored or

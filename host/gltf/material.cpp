@@ -110,11 +110,11 @@ bool transmitsRoughly(const Material& m) { return m.transmission > 0.0F && m.rou
 
 }  // namespace
 
-std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, std::uint64_t texelBytes,
-                               Scene& scene, Notices& notices) {
+std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, Scene& scene,
+                               Notices& notices) {
   std::vector<int> indices(child(document.json, "materials").size() + 1, -1);
   ImageSources sources(document);
-  sources.hold(wanted, texelBytes);
+  sources.hold(wanted);
   TextureReader textures(document, sources, scene, notices);
   int rough = 0;
   for (const int index : wanted) {

@@ -11,8 +11,8 @@ namespace whittle::gltf {
 
 /// Reads the materials in `wanted` (glTF indices; -1 is the default material) into Scene::materials, in that
 /// order with the default last, and their images into Scene::images. Returns, by glTF index plus one, the
-/// index in the scene. `texelBytes`: what a texel will take beside the decoded image.
-std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, std::uint64_t texelBytes,
-                               Scene& scene, Notices& notices);
+/// index in the scene.
+std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, Scene& scene,
+                               Notices& notices);
 
 }  // namespace whittle::gltf

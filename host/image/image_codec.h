@@ -19,8 +19,8 @@ class ImageCodec {
                         const ImageMetadata& metadata,
                         const std::vector<std::string>& channelNames) const = 0;
   /// `format`: "png" or "jpeg".
-  virtual void writeRgb8(const std::filesystem::path& path, const std::string& format, int width, int height,
-                         std::span<const std::uint8_t> rgb, const ImageMetadata& metadata) const = 0;
+  virtual void writeCodes(const std::filesystem::path& path, const std::string& format,
+                          const CodeImage& image, const ImageMetadata& metadata) const = 0;
 };
 
 }  // namespace whittle

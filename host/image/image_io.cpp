@@ -102,6 +102,22 @@ void refuseDamagedExr(const fs::path& path) {
 
 }  // namespace
 
+FloatImage joined(const std::vector<const FloatImage*>& images) {
+  FloatImage all{images.front()->width, images.front()->height, 0, {}};
+  for (const FloatImage* image : images) all.channels += image->channels;
+  const std::size_t pixels = static_cast<std::size_t>(all.width) * all.height;
+  const auto channels = static_cast<std::size_t>(all.channels);
+  all.pixels.resize(pixels * channels);
+  std::size_t at = 0;
+  for (const FloatImage* image : images) {
+    const auto own = static_cast<std::size_t>(image->channels);
+    for (std::size_t p = 0; p < pixels; ++p)
+      std::copy_n(&image->pixels[p * own], own, &all.pixels[p * channels + at]);
+    at += own;
+  }
+  return all;
+}
+
 void loadImageCodec() { codec(); }
 
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name) {
@@ -134,14 +150,13 @@ void writeExr(const fs::path& path, const FloatImage& image, const ImageMetadata
   codec().writeExr(path, image, metadata, channelNames);
 }
 
-void writeRgb8(const fs::path& path, int width, int height, std::span<const std::uint8_t> rgb,
-               const ImageMetadata& metadata) {
+void writeCodes(const fs::path& path, const CodeImage& image, const ImageMetadata& metadata) {
   const std::string format = imageFormatOf(path);
   if (format != "png" && format != "jpeg")
     throw InputError(
         fmt::format("{}: a tone-mapped picture needs the extension .png or .jpg", path.string()));
   checkFolderWritable(path);
-  codec().writeRgb8(path, format, width, height, rgb, metadata);
+  codec().writeCodes(path, format, image, metadata);
 }
 
 void checkWritable(const fs::path& path) {

@@ -23,6 +23,9 @@ struct FloatImage {
   std::vector<float> pixels;  ///< width·height·channels
 };
 
+/// The channels of several images of one size side by side, in one.
+FloatImage joined(const std::vector<const FloatImage*>& images);
+
 /// Loads the codec now, which takes a quarter of a second: from a thread that has nothing else to do. Throws
 /// std::runtime_error where its library is missing, as do all functions below that need it.
 void loadImageCodec();
@@ -49,10 +52,16 @@ using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 /// an unknown extension or a folder that does not exist.
 void writeExr(const std::filesystem::path& path, const FloatImage& image, const ImageMetadata& metadata,
               const std::vector<std::string>& channelNames = {});
-/// Writes 8-bit RGB (width·height·3 bytes, already tone-mapped and sRGB-encoded) as
-/// .png or .jpg; same guarantees.
-void writeRgb8(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb,
-               const ImageMetadata& metadata);
+/// 8-bit colours, tone-mapped and sRGB-encoded, interleaved.
+struct CodeImage {
+  int width = 0;
+  int height = 0;
+  int channels = 3;  ///< 4: with an alpha that the colours are not multiplied by
+  std::vector<std::uint8_t> codes;
+};
+
+/// Writes them as .png or .jpg, which has no fourth channel; same guarantees.
+void writeCodes(const std::filesystem::path& path, const CodeImage& image, const ImageMetadata& metadata);
 /// Throws InputError unless `path` has an extension that can be written and its folder exists and is
 /// writable: called before a render starts, so that nothing is lost at its end.
 void checkWritable(const std::filesystem::path& path);

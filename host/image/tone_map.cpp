@@ -112,4 +112,23 @@ std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops, 
   return bytes;
 }
 
+std::vector<std::uint8_t> toneMapWithAlpha(const FloatImage& image, const FloatImage& alpha,
+                                           float exposureStops, bool rollsOff) {
+  const CodeBorders borders = makeBorders();
+  const double scale = std::exp2(static_cast<double>(exposureStops));
+  const std::size_t width = image.width;
+  std::vector<std::uint8_t> bytes(width * image.height * 4);
+  tbb::parallel_for(0, image.height, [&](int y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t pixel = y * width + x;
+      const double a = std::clamp(static_cast<double>(alpha.pixels[pixel]), 0.0, 1.0);
+      std::uint8_t* const out = &bytes[pixel * 4];
+      out[3] = static_cast<std::uint8_t>(std::lround(255 * a));
+      if (out[3] > 0)
+        mapPixel(borders, &image.pixels[pixel * image.channels], image.channels, scale / a, rollsOff, out);
+    }
+  });
+  return bytes;
+}
+
 }  // namespace whittle

@@ -35,4 +35,9 @@ float fittingExposure(const FloatImage& image);
 std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops,
                                   std::uint64_t* nonFinite = nullptr, bool rollsOff = true);
 
+/// The same with `alpha` (one channel, [0, 1]) as the fourth byte: width·height·4. Files of codes hold
+/// colours that are not multiplied by alpha, so `image`, which is, is divided by it first; 0 where alpha is.
+std::vector<std::uint8_t> toneMapWithAlpha(const FloatImage& image, const FloatImage& alpha,
+                                           float exposureStops, bool rollsOff = true);
+
 }  // namespace whittle

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <limits>
 #include <mutex>
 
@@ -32,6 +33,8 @@ void traceRow(const reference::World& world, int y, ReferenceResult& result, Row
     const reference::PixelResult pixel = reference::traceOnePixel(world, x, y, counts.rays);
     const std::size_t i = static_cast<std::size_t>(y) * world.settings.width + x;
     for (int c = 0; c < 3; ++c) result.radiance.pixels[3 * i + c] = static_cast<float>(pixel.radiance[c]);
+    if (world.settings.alpha)
+      result.alpha.pixels[i] = static_cast<float>(std::clamp(1 - pixel.transmittance, 0.0, 1.0));
     result.primitive.pixels[i] = pixel.seen ? static_cast<float>(pixel.seen->triangle) : -1.0F;
     result.depth.pixels[i] =
         pixel.seen ? static_cast<float>(pixel.seen->t) : std::numeric_limits<float>::infinity();
@@ -47,6 +50,7 @@ ReferenceResult render(const Scene& scene, const Settings& settings,
 
   ReferenceResult result;
   result.radiance = emptyImage(settings, 3);
+  if (settings.alpha) result.alpha = emptyImage(settings, 1);
   result.primitive = emptyImage(settings, 1);
   result.depth = emptyImage(settings, 1);
   std::vector<RowCounts> rows(settings.height);
@@ -73,8 +77,9 @@ ReferenceResult render(const Scene& scene, const Settings& settings,
 }  // namespace
 
 std::uint64_t referencePictureBytes(const Settings& settings) {
-  constexpr std::uint64_t kPixel = 5 * sizeof(float) + 12;  // radiance, triangle, distance; what encodes them
-  return kPixel * static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+  // Radiance, triangle, distance; what encodes them.
+  const std::uint64_t pixel = 5 * sizeof(float) + 12 + (settings.alpha ? 2 * sizeof(float) : 0);
+  return pixel * static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
 }
 
 ReferenceResult renderReference(const Scene& scene, const Settings& settings,

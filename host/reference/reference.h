@@ -23,6 +23,7 @@ struct RayCounts {
 
 struct ReferenceResult {
   FloatImage radiance;   ///< RGB, W/(m² sr)
+  FloatImage alpha;      ///< with Settings::alpha, 1 channel: the share of each pixel that the scene covers
   FloatImage primitive;  ///< 1 channel: triangle index hit through the pixel's first sample, -1 for none
   FloatImage depth;      ///< 1 channel: distance in metres along that ray, +inf for none
   RayCounts rays;

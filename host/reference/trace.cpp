@@ -174,6 +174,10 @@ Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& st
   if (hit && fromEye && world.settings.clipFar && hit->t * along > static_cast<double>(world.camera.zfar))
     hit.reset();
   if (seen) *seen = hit;
+  if (!hit && fromEye && world.settings.alpha) {
+    if (sample.transmittance) *sample.transmittance += (throughput.x + throughput.y + throughput.z) / 3;
+    return Vec3(0);
+  }
   if (!hit) return backgroundRadiance(world.scene.background, ray.direction);
   const Surfel surfel = makeSurfel(world.scene, world.settings, world.triangles, ray, *hit);
   const Vec3 kept = absorption(surfel, hit->t - (step.after ? step.after->t : 0));
@@ -196,14 +200,18 @@ PixelResult traceOnePixel(const World& world, int x, int y, RayCounts& rays) {
     const Vec2 position = Vec2(x, y) + samplePosition(settings.sampler, pixel, s, count, settings.seed);
     const Ray ray = eyeRay(world.camera, position, settings.width, settings.height);
     ++rays.primary;
-    const Vec3 radiance = Li(world, {pixel, s, rays}, ray, {}, Vec3(1), s == 0 ? &result.seen : nullptr);
+    double transmittance = 0;
+    const Vec3 radiance =
+        Li(world, {pixel, s, rays, &transmittance}, ray, {}, Vec3(1), s == 0 ? &result.seen : nullptr);
     if (isFiniteInSinglePrecision(radiance)) {
       result.radiance += radiance;
+      result.transmittance += transmittance;
     } else {
       ++result.nonFinite;
     }
   }
   result.radiance /= count;
+  result.transmittance /= count;
   return result;
 }
 

@@ -22,6 +22,9 @@ struct Sample {
   std::uint32_t pixel;
   std::uint32_t index;
   RayCounts& rays;
+  /// With Settings::alpha receives the share of the background that the eye sees straight on; null: nobody
+  /// asks.
+  double* transmittance = nullptr;
 };
 
 /// Where on its way a ray is: `bounce` 1 for eye rays; `passed` surfaces went by straight on, the last of
@@ -50,6 +53,7 @@ Vec3 visibility(const World& world, const Surfel& surfel, const Vec3& w_i, doubl
 
 struct PixelResult {
   Vec3 radiance{0};             ///< mean of the samples
+  double transmittance = 0;     ///< likewise
   std::optional<Hit> seen;      ///< by the first sample
   std::uint64_t nonFinite = 0;  ///< samples left out
 };

@@ -72,25 +72,33 @@ std::uint64_t uploadBytes(const Scene& scene, const RenderPlan& plan, std::uint6
 }  // namespace
 
 std::uint64_t pictureBytes(const Settings& settings) {
-  constexpr std::uint64_t kOrder = sizeof(std::uint32_t), kPicture = 3 * sizeof(float);
+  constexpr std::uint64_t kOrder = sizeof(std::uint32_t), kPicture = 3 * sizeof(float),
+                          kAlpha = sizeof(float);
   const std::uint64_t adaptive = settings.adaptive ? kOrder : 0;
-  return pixelsOf(settings) *
-         (filmPlanes(settings.raysPerPixel) * sizeof(float) + kOrder + adaptive + kPicture);
+  return pixelsOf(settings) * (filmPlanes(settings.raysPerPixel, settings.alpha) * sizeof(float) + kOrder +
+                               adaptive + kPicture + (settings.alpha ? kAlpha : 0));
 }
 
 std::uint64_t peakBytes(const Scene& scene, const RenderPlan& plan, std::uint64_t loadBytes) {
   const DeviceBytes device(plan);
   const std::uint64_t triangles = scene.triangles.size(), pixels = pixelsOf(plan.settings);
+  const std::uint64_t channels = plan.settings.alpha ? 4 : 3;
   const std::uint64_t tree =
       sizeof(TreeNode) * plan.treeNodes + sizeof(std::uint32_t) * (plan.treeNodes > 0 ? triangles : 0);
   const std::uint64_t build = tree + (plan.treeNodes > 0 ? (sizeof(PrimRef) + 12) * triangles : 0);
   const std::uint64_t upload = uploadBytes(scene, plan, tree);
+  // An image leaves this side when it has come to the other.
+  const std::uint64_t whole = bytesOf(scene), texels = device.named("texels"), drawn = whole - texels;
+  std::uint64_t largest = 0;
+  for (const Image& image : scene.images)
+    largest = std::max(largest, bytesOf(image.texels) + bytesOf(image.deepTexels));
+  const std::uint64_t uploading = drawn + device.all() + largest;
   // The order of the pixels is made on this side; the picture comes when everything is still there.
-  const std::uint64_t rendering =
-      device.all() + 3 * sizeof(float) * pixels + (device.named("aovs") > 0 ? device.named("aovs") * 2 : 0);
+  const std::uint64_t rendering = drawn + device.all() + channels * sizeof(float) * pixels +
+                                  (device.named("aovs") > 0 ? device.named("aovs") * 2 : 0);
   // Encoding: the picture once more, as codes or as floats that do not compress.
-  const std::uint64_t writing = 6 * sizeof(float) * pixels;
-  const std::uint64_t own = bytesOf(scene) + std::max({build, upload, rendering, writing});
+  const std::uint64_t writing = drawn + 2 * channels * sizeof(float) * pixels;
+  const std::uint64_t own = std::max({whole + build, whole + upload, uploading, rendering, writing});
   return std::max(kProgramBytes + kRuntimeBytes + own, loadBytes);
 }
 

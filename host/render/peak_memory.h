@@ -18,8 +18,6 @@ inline constexpr std::uint64_t kRuntimeBytes = 138'000'000;
 inline constexpr std::uint64_t kCompilerBytes = 150'000'000;
 /// For each triangle beside the scene's arrays, while the tree is built and uploaded.
 inline constexpr std::uint64_t kTriangleBytes = 200;
-/// For each texel beside its image: the device's copy.
-inline constexpr std::uint64_t kTexelBytes = 4;
 
 /// Film and picture: all that grows with the number of pixels.
 std::uint64_t pictureBytes(const Settings& settings);

@@ -53,7 +53,8 @@ Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo&
 PictureBuffers allocatePicture(Compute& compute, const Settings& settings, const Decisions& decisions,
                                Compute::Memory memory) {
   const std::size_t pixels = static_cast<std::size_t>(settings.width) * settings.height;
-  const std::size_t film = pixels * filmPlanes(settings.raysPerPixel) * sizeof(float),
+  const std::size_t film = pixels * sizeof(float) *
+                           filmPlanes(settings.raysPerPixel, decisions.features.has(Feature::COVERAGE)),
                     order = pixels * sizeof(std::uint32_t);
   const std::size_t aovs = decisions.features.has(Feature::AOVS) ? pixels * AOV_PLANES * sizeof(float) : 0;
   const DeviceInfo& device = compute.device();
@@ -110,8 +111,8 @@ std::uint32_t queueCapacity(const Settings& s) {
 }  // namespace
 
 SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
-                           const Decisions& decisions, const TriTree& tree) {
-  return {uploadScene(compute, scene, decisions.pruned, tree, decisions.features),
+                           const Decisions& decisions, const TriTree& tree, const ImageUploaded& uploaded) {
+  return {uploadScene(compute, scene, decisions.pruned, tree, decisions.features, uploaded),
           RayQueues(compute, decisions.features, queueCapacity(settings), decisions.compactChunk)};
 }
 

@@ -54,9 +54,10 @@ struct SceneBuffers {
 
   void report(std::vector<BufferStats>& out) const;
 };
-/// Throws ClError that names the buffer that does not fit.
+/// Throws ClError that names the buffer that does not fit. `uploaded`: see uploadScene.
 SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
-                           const Decisions& decisions, const TriTree& tree);
+                           const Decisions& decisions, const TriTree& tree,
+                           const ImageUploaded& uploaded = {});
 
 /// With the sizes that were chosen where the user left them open.
 Settings settingsInEffect(const Settings& settings, const Decisions& decisions, const RayQueues& queues);

@@ -66,7 +66,8 @@ device::RenderConstants constantsToDevice(const Scene& scene, const Camera& came
           .zfar = camera.zfar,
           .transparentBounces = static_cast<std::uint32_t>(s.transparentBounces),
           .ambient = s.ambient.value_or(0.0F),
-          .backgroundAhead = backgroundAhead(scene.background)};
+          .backgroundAhead = backgroundAhead(scene.background),
+          .backgroundClear = s.alpha ? 1U : 0U};
 }
 
 std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& settings,
@@ -149,7 +150,9 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
   const double pictureSeconds = PhaseLog::secondsSince(allocating);
   SceneBuffers memory = [&] {
     const TriTree tree = log.time("build tree", [&] { return buildTree(scene, decisions); });
-    return log.time("upload", [&] { return allocateScene(compute, scene, settings, decisions, tree); });
+    return log.time("upload", [&] {
+      return allocateScene(compute, scene, settings, decisions, tree, hooks.imageUploaded);
+    });
   }();
   const auto [programs, compileSeconds] = compiled.get();
   log.add("compile kernels", compiling, compileSeconds);
@@ -174,7 +177,8 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
   loop.run();
   log.end("render", rendering);
 
-  RenderResult result{loop.picture(), readAovs(compute, settings, picture, loop), {}};
+  RenderResult result{loop.picture(), {}, readAovs(compute, settings, picture, loop), {}};
+  if (settings.alpha) result.alpha = loop.alpha();
   Stats& stats = result.stats;
   describeScene(stats, scene);
   stats.settings = settingsInEffect(settings, decisions, memory.queues);

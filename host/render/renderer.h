@@ -27,6 +27,7 @@ struct RenderProgress {
 
 struct RenderResult {
   FloatImage radiance;  ///< RGB, W/(m² sr)
+  FloatImage alpha;     ///< with Settings::alpha, 1 channel: the share of each pixel that the scene covers
   std::map<std::string, FloatImage>
       aovs;     ///< depth (1 channel, m), primitive (1), normal (3, world), albedo (3), samples (1)
   Stats stats;  ///< time.load, time.write and time.total are the caller's to fill
@@ -50,6 +51,8 @@ struct RenderHooks {
   /// False: the command queue keeps no times, so that Stats' stages have none.
   bool timeStages = true;
   Trace* trace = nullptr;  ///< records launches and phases, needs timeStages; null: nothing is kept
+  /// The device has the image of this index: whoever owns the scene may take its texels away. May be empty.
+  std::function<void(std::size_t image)> imageUploaded;
   /// Opened before, with timeStages, in place of the device that the settings name; null: the render opens
   /// its own.
   OpenDevice* device = nullptr;

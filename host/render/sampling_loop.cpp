@@ -217,6 +217,12 @@ FloatImage SamplingLoop::picture() {
   return image;
 }
 
+FloatImage SamplingLoop::alpha() {
+  FloatImage image{settings_.width, settings_.height, 1, std::vector<float>(counts_.pixels())};
+  eachPart([&](const FilmPart& part) { resolveAlpha(part, counts_, image); });
+  return image;
+}
+
 FloatImage SamplingLoop::samples() {
   FloatImage image{settings_.width, settings_.height, 1, std::vector<float>(counts_.pixels())};
   eachPart([&](const FilmPart& part) { showSamples(part, counts_, image); });

@@ -37,6 +37,7 @@ class SamplingLoop {
   const std::vector<ErrorPoint>& error() const { return error_; }
   /// The picture, after run.
   FloatImage picture();
+  FloatImage alpha();
   FloatImage samples();
   /// The throughput that ended (RayTally::ended) for each sample, so weighted that biasBound holds for the
   /// mean over the pixels.

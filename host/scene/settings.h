@@ -47,6 +47,8 @@ struct Settings {
   int transparentBounces = 64;      ///< surfaces that a ray may pass straight on, besides its bounces
   /// What eye and impulse rays make of the backs of single-sided surfaces that light does not pass.
   BackFaces backFaces = BackFaces::Cull;
+  bool alpha =
+      false;  ///< the background is left out where the eye sees it straight on, and the rest has an alpha
   bool clipFar = false;  ///< eye rays end at the camera's zfar
   float cutoff = 0.0F;   ///< no impulse of at most this throughput in every channel is traced; 0: none is cut
   /// Radiance, W/(m² sr), that every lit surface receives from all sides, unshadowed: Whitted's ambient term.
@@ -94,6 +96,7 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("bounces", s.bounces);
   visit("transparentBounces", s.transparentBounces);
   visit("backFaces", s.backFaces);
+  visit("alpha", s.alpha);
   visit("clipFar", s.clipFar);
   visit("cutoff", s.cutoff);
   visit("ambient", s.ambient);

@@ -48,15 +48,20 @@ class TextureAtlas {
   }
 
   /// The texels of all images as words, the first channel lowest; they go from the images to the device
-  /// without another copy in between.
-  Buffer upload(Compute& compute) const {
+  /// without another copy in between, an image after the other.
+  Buffer upload(Compute& compute, const ImageUploaded& uploaded) const {
     static_assert(std::endian::native == std::endian::little);
     Buffer buffer = compute.allocate("texels", std::size_t{words_} * 4);
-    for (const auto& [key, word] : first_) {
+    for (auto next = first_.begin(); next != first_.end();) {
+      const auto& [key, word] = *next;
       const Image& image = imageOf(key.first);
       const std::size_t at = std::size_t{word} * 4;
       key.second ? compute.write(buffer, at, std::as_bytes(std::span(image.deepTexels)))
                  : compute.write(buffer, at, std::as_bytes(std::span(image.texels)));
+      const int index = key.first;
+      ++next;
+      const bool whole = next == first_.end() || next->first.first != index;
+      if (whole && uploaded) uploaded(pruned_.images[static_cast<std::size_t>(index)]);
     }
     return buffer;
   }
@@ -270,7 +275,7 @@ void DeviceScene::report(std::vector<BufferStats>& out) const {
 }
 
 DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, const TriTree& tree,
-                        const SceneFeatures& features) {
+                        const SceneFeatures& features, const ImageUploaded& uploaded) {
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
   std::vector<glm::uvec3> hittable = hittableCorners(scene);
@@ -311,7 +316,7 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   d.materials = compute.upload("materials", materials);
   if (features.has(Feature::TEXTURES)) {
     d.textures = compute.upload("textures", atlas.slots);
-    d.texels = atlas.upload(compute);
+    d.texels = atlas.upload(compute, uploaded);
     d.linearFromSrgb = compute.upload("linearFromSrgb", srgbTable());
   }
   const auto lights = lightsToDevice(scene, pruned);

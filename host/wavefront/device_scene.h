@@ -2,6 +2,7 @@
 // null pointer there.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "analysis/scene_features.h"
@@ -27,9 +28,13 @@ struct DeviceScene {
   void report(std::vector<BufferStats>& out) const;
 };
 
-/// Uploads of `pruned` what `features` needs. Throws ClError naming the buffer that does not fit.
+/// Called with the index of an image of the scene once the device has what it needs of it.
+using ImageUploaded = std::function<void(std::size_t image)>;
+
+/// Uploads of `pruned` what `features` needs. Throws ClError naming the buffer that does not fit. `uploaded`,
+/// which may be empty, is called for each image that it uploads and may take its texels away.
 DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, const TriTree& tree,
-                        const SceneFeatures& features);
+                        const SceneFeatures& features, const ImageUploaded& uploaded = {});
 /// Of the whole scene, for features that nothing analysed.
 inline DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tree,
                                const SceneFeatures& features) {

@@ -17,7 +17,7 @@ double plane(const FilmPart& s, int sum, int compensation, std::size_t pixel) {
   const auto value = [&](int at) {
     return static_cast<double>(s.planes[static_cast<std::size_t>(at) * pixels + pixel]);
   };
-  const bool compensated = s.planes.size() > FILM_PLANES_OF_ONE * pixels;
+  const bool compensated = s.planes.size() >= FILM_PLANES * pixels;
   return value(sum) + (compensated ? value(compensation) : 0.0);
 }
 
@@ -33,7 +33,10 @@ FloatImage gather(int width, int height, const std::vector<float>& planes, int f
 
 }  // namespace
 
-std::size_t filmPlanes(int samples) { return samples > 1 ? FILM_PLANES : FILM_PLANES_OF_ONE; }
+std::size_t filmPlanes(int samples, bool coverage) {
+  if (samples > 1) return coverage ? FILM_PLANES_COVERAGE : FILM_PLANES;
+  return coverage ? FILM_PLANES_OF_ONE_COVERAGE : FILM_PLANES_OF_ONE;
+}
 
 namespace {
 
@@ -84,6 +87,16 @@ void addRadiance(const FilmPart& part, const SampleCounts& counts, double& total
     for (int c = 0; c < 3; ++c)
       total +=
           plane(part, FILM_SUM + c, FILM_COMPENSATION + c, p) / std::max(1U, counts.ofPixel(part.first + p));
+}
+
+void resolveAlpha(const FilmPart& part, const SampleCounts& counts, FloatImage& image) {
+  const bool ofOne = part.planes.size() < FILM_PLANES * part.pixelOrder.size();
+  const int sum = ofOne ? FILM_TRANSMITTANCE_OF_ONE : FILM_TRANSMITTANCE;
+  for (std::size_t p = 0; p < part.pixelOrder.size(); ++p) {
+    const double n = std::max(1U, counts.ofPixel(part.first + p));
+    const double clear = plane(part, sum, FILM_TRANSMITTANCE_COMPENSATION, p) / n;
+    image.pixels[placeOf(part, p, image)] = static_cast<float>(std::clamp(1.0 - clear, 0.0, 1.0));
+  }
 }
 
 void showSamples(const FilmPart& part, const SampleCounts& counts, FloatImage& image) {

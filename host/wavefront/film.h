@@ -11,8 +11,8 @@
 
 namespace whittle {
 
-/// Planes of the film of a picture with this many samples for each pixel.
-std::size_t filmPlanes(int samples);
+/// Planes of the film of a picture with this many samples for each pixel; `coverage`: with the transmittance.
+std::size_t filmPlanes(int samples, bool coverage);
 
 /// A part of the film, pixels `first` and on in the order of makePixelOrder: as much as is looked at at once.
 struct FilmPart {
@@ -24,9 +24,10 @@ struct FilmPart {
 /// Puts the mean of each pixel's samples into `image`, RGB; 0 where a pixel has none.
 void resolveFilm(const FilmPart& part, const SampleCounts& counts, FloatImage& image);
 
-/// Adds to each block of pixels the sum over those of the part of the variance of the pixel's mean, averaged over the
-/// channels, (W/(m² sr))². Needs planes of more than one sample; infinite for a block with fewer than two
-/// samples. It is what independent samples would give; stratified and Sobol samples do better than it says.
+/// Adds to each block of pixels the sum over those of the part of the variance of the pixel's mean, averaged
+/// over the channels, (W/(m² sr))². Needs planes of more than one sample; infinite for a block with fewer
+/// than two samples. It is what independent samples would give; stratified and Sobol samples do better than
+/// it says.
 void addBlockVariances(const FilmPart& part, const SampleCounts& counts, std::vector<double>& variances);
 
 /// Standard error of the picture, W/(m² sr): what `rootMeanSquare` to the true picture is expected to be (the
@@ -35,6 +36,10 @@ double estimateError(const std::vector<double>& blockVariances, const SampleCoun
 
 /// Adds the radiance of all pixels and colour channels, W/(m² sr), to `total`.
 void addRadiance(const FilmPart& part, const SampleCounts& counts, double& total);
+
+/// Puts the share of each pixel that the scene covers into `image`, one channel: 1 less the mean
+/// transmittance of the samples. Needs a film with coverage.
+void resolveAlpha(const FilmPart& part, const SampleCounts& counts, FloatImage& image);
 
 /// Puts the samples of each pixel into `image`, one channel.
 void showSamples(const FilmPart& part, const SampleCounts& counts, FloatImage& image);

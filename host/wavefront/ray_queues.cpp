@@ -34,7 +34,8 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
       capacity_(capacity),
       segmentLimit_(features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity),
       rayPlanes_(rayPlanesFor(features)),
-      hitPlanes_(hitPlanesFor(features)) {
+      hitPlanes_(hitPlanesFor(features)),
+      radiancePlanes_(features.has(Feature::COVERAGE) ? RADIANCE_PLANES_COVERAGE : RADIANCE_PLANES) {
   // A packet reads up to fifteen entries past its segment (into the next plane, or the padding) and ignores
   // them. It writes whole packets from entry 0, which stay inside a plane because the capacity is a multiple.
   assert(capacity % PACKET_RAYS == 0);
@@ -44,11 +45,12 @@ RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint3
   const bool shadowRays = features.has(Feature::SHADOWS);
   const bool impulseRays = features.has(Feature::IMPULSES);
   hits = planes("hits", hitPlanes_);
-  sampleRadiance = planes("sampleRadiance", 3);
+  sampleRadiance = planes("sampleRadiance", radiancePlanes_);
   if (shadowRays) shadows = planes("shadows", SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
   const std::size_t impulsesOfHit = features.has(Feature::BOTH_BRANCHES) ? 2 : 1;
   if (impulseRays)
-    impulses = planes("impulses", impulsesOfHit * IMPULSE_PLANES), entryRadiance = planes("entryRadiance", 3);
+    impulses = planes("impulses", impulsesOfHit * IMPULSE_PLANES),
+    entryRadiance = planes("entryRadiance", radiancePlanes_);
   if (shadowRays || impulseRays) {
     flags = compute.allocate("flags", std::size_t{capacity} + QUEUE_PADDING);
     const std::size_t chunks = capacity / compactChunk + 1, kinds = impulseRays ? SUMS : SUM_ENDED;

@@ -30,7 +30,9 @@ class RayQueues {
   /// Without distances where nothing asks for them.
   std::uint32_t hitPlanes() const { return hitPlanes_; }
   /// Flags take none where nothing is found that has to be compacted.
-  EntryBytes entryBytes() const { return {hitPlanes_ * sizeof(float), rayPlanes_ > RAY_SLOT}; }
+  EntryBytes entryBytes() const {
+    return {hitPlanes_ * sizeof(float), radiancePlanes_ * sizeof(float), rayPlanes_ > RAY_SLOT};
+  }
 
   /// A free ray queue; give it back with release. Queues are kept and reused.
   Buffer acquire();
@@ -55,6 +57,7 @@ class RayQueues {
   std::uint32_t segmentLimit_;
   std::uint32_t rayPlanes_;  ///< of a ray queue
   std::uint32_t hitPlanes_;
+  std::uint32_t radiancePlanes_;
   std::vector<Buffer> free_;
   std::uint64_t queuesMade_ = 0;
 };

@@ -70,6 +70,7 @@ struct LaunchWidths {
 /// Bytes of one entry in those queues that are as wide as the features ask.
 struct EntryBytes {
   Bytes hit = HIT_PLANES * sizeof(float);
+  Bytes radiance = RADIANCE_PLANES * sizeof(float);
   bool slots = true;  ///< eye rays carry the slots of their samples
 };
 
@@ -144,7 +145,7 @@ struct Shade {
   /// Reads rays, hits and, after the first bounce, throughputs; writes radiance and flags.
   Bytes bytes(const EntryBytes& e) const {
     const bool throughputs = bounce > 1 && bounce < lastBounce;
-    return count * (kRay + e.hit + kRgb + (throughputs ? kRgb : 0) + kFlags);
+    return count * (kRay + e.hit + e.radiance + (throughputs ? kRgb : 0) + kFlags);
   }
   /// Candidates come on top.
   static constexpr Bytes bytesOf(Bytes shadowRays, Bytes impulses) {
@@ -267,7 +268,7 @@ struct Accumulate {
 
   Count items() const { return count; }
   /// Reads slot, throughput and radiance; adds to the sample, as though each entry were the only one of it.
-  Bytes bytes(const EntryBytes&) const { return count * (kPlane + 2 * kRgb + 2 * kRgb); }
+  Bytes bytes(const EntryBytes& e) const { return count * (kPlane + kRgb + 3 * e.radiance); }
 };
 
 struct FindLongRuns {
@@ -299,9 +300,9 @@ struct Film {
 
   Count items() const { return batch.pixels; }
   /// Reads samples; reads and writes the film's planes, or writes them alone before the first sample.
-  Bytes bytes(const EntryBytes&) const {
+  Bytes bytes(const EntryBytes& e) const {
     const Bytes all = batch.pixels;
-    return all * batch.samples * kRgb + all * planes * (batch.firstSample == 0 ? 1 : 2) * kPlane;
+    return all * batch.samples * e.radiance + all * planes * (batch.firstSample == 0 ? 1 : 2) * kPlane;
   }
 };
 

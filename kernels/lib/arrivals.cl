@@ -56,21 +56,22 @@ INLINE void loadSteps(__global const float* rays, uint entry, uint capacity, uin
 }
 #endif
 
+#if HAS(FAR_PLANE) || HAS(COVERAGE)
+/// Rays that come from the eye, straight on.
+INLINE Mask comeFromEye(__global const float* rays, uint entry, uint capacity, uint bounce) {
+#if HAS(STRAIGHT)
+  if (bounce > 1) return (AS_NATURAL(LOAD(rays + (size_t)RAY_STEPS * capacity + entry)) & (STEP_STRAIGHT - 1)) == 1u;
+#endif
+  return (Natural)(bounce) == 1u;
+}
+#endif
+
 #if HAS(FAR_PLANE)
 /// Nothing is seen beyond the far plane: of rays that come from the eye, straight on.
 INLINE void endAtFarPlane(const RenderConstants* constants, __global const float* rays, uint entry, uint capacity,
                           uint bounce, Arrivals* a) {
   const Real depth = a->t * dot3(a->d, real3(constants->forward[0], constants->forward[1], constants->forward[2]));
-  Mask beyond = depth > constants->zfar;
-  if (bounce > 1) {
-#if HAS(STRAIGHT)
-    const Natural steps = AS_NATURAL(LOAD(rays + (size_t)RAY_STEPS * capacity + entry));
-    beyond = beyond & ((steps & (STEP_STRAIGHT - 1)) == 1u);
-#else
-    return;
-#endif
-  }
-  a->hit = a->hit & !beyond;
+  a->hit = a->hit & !((depth > constants->zfar) & comeFromEye(rays, entry, capacity, bounce));
 }
 #endif
 

@@ -57,6 +57,7 @@
 #define BIT_FAR_PLANE 48                   // far plane
 #define BIT_AMBIENT 49                     // ambient light
 #define BIT_DEEP_TEXTURES 50               // textures of 16 bits
+#define BIT_COVERAGE 51                    // alpha channel
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

@@ -138,6 +138,7 @@ WHITTLE_STRUCT(RenderConstants) {
   uint transparentBounces;  // surfaces that a ray may pass straight on, besides its bounces
   float ambient;            // radiance from all sides that every lit surface receives, with AMBIENT
   float backgroundAhead;    // u of the map seen along -Z, in [0, 1]: a half, where it is not turned
+  uint backgroundClear;     // 1: what the eye sees of it straight on counts as transmittance, with COVERAGE
 };
 
 // The samples of one batch: pixels [firstPixel, firstPixel + pixels) of the pixel order, times samples
@@ -235,8 +236,15 @@ WHITTLE_STRUCT(Batch) {
 #define SUM_ENDED 2
 #define SUMS (SUM_ENDED + 2 * ENDED_KINDS)
 
+// Radiance of entries and samples: RGB, and with COVERAGE the transmittance: how much of what lies behind the
+// scene shows, straight on from the eye. The picture's alpha is what is left of 1.
+#define RADIANCE_PLANES 3
+#define RADIANCE_TRANSMITTANCE 3
+#define RADIANCE_PLANES_COVERAGE 4
+
 // Film planes for each pixel, in the pixel order: compensated sums of RGB, and of the mean of their squares
-// for the error estimate. One sample for each pixel needs the sums only. A batch that does not go over
+// for the error estimate; with COVERAGE of the transmittance, behind all others. One sample for each pixel needs
+// the sums only, without squares. A batch that does not go over
 // neighbouring pixels goes over whole blocks of FILM_BLOCK of them (the picture's last may be shorter, and
 // comes last).
 #define FILM_BLOCK 64
@@ -246,6 +254,11 @@ WHITTLE_STRUCT(Batch) {
 #define FILM_SQUARES_COMPENSATION 7
 #define FILM_PLANES 8
 #define FILM_PLANES_OF_ONE 3
+#define FILM_TRANSMITTANCE 8
+#define FILM_TRANSMITTANCE_COMPENSATION 9
+#define FILM_PLANES_COVERAGE 10
+#define FILM_TRANSMITTANCE_OF_ONE 3
+#define FILM_PLANES_OF_ONE_COVERAGE 4
 
 // Auxiliary outputs of a pixel's first sample.
 #define AOV_DEPTH 0

@@ -109,10 +109,13 @@ TEST(Aovs, LayersAreInterleavedByName) {
   const FloatImage radiance{2, 1, 3, {1, 2, 3, 4, 5, 6}};
   Names names;
   const FloatImage all = cli::layered(
-      radiance, {{"depth", {2, 1, 1, {7, 8}}}, {"normal", {2, 1, 3, {9, 10, 11, 12, 13, 14}}}}, names);
+      radiance, {}, {{"depth", {2, 1, 1, {7, 8}}}, {"normal", {2, 1, 3, {9, 10, 11, 12, 13, 14}}}}, names);
   EXPECT_EQ(names, (Names{"R", "G", "B", "Z", "normal.X", "normal.Y", "normal.Z"}));
   EXPECT_EQ(all.channels, 7);
   EXPECT_EQ(all.pixels, (std::vector<float>{1, 2, 3, 7, 9, 10, 11, 4, 5, 6, 8, 12, 13, 14}));
+  EXPECT_EQ(cli::layered(radiance, {2, 1, 1, {0.5F, 1}}, {}, names).pixels,
+            (std::vector<float>{1, 2, 3, 0.5F, 4, 5, 6, 1}));
+  EXPECT_EQ(names, (Names{"R", "G", "B", "A"}));
 }
 
 }  // namespace

@@ -87,6 +87,30 @@ TEST(Background, NothingAskedForKeepsEveryBit) {
   EXPECT_EQ(Json::parse(same.out)["differingPixels"], 0);
 }
 
+/// Options that change nothing say so, those that do are silent.
+TEST(Background, OptionsThatChangeNothingAreSaid) {
+  const Folder folder;
+  writeSky(folder, {0.1F, 1, 2.3F, 3});
+  const auto said = [&](Args more) {
+    Args args{"info", scene("mirror.glb")};
+    args.insert(args.end(), more.begin(), more.end());
+    const Outcome run = runWhittle(args, {folder.path(), {}});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out + run.err;
+  };
+  const std::string noTurn = "--background-rotation changes nothing",
+                    noScale = "--background-strength changes nothing";
+  const std::string grey =
+      said({"--background", "1,1,1", "--background-rotation", "30", "--background-strength", "2"});
+  EXPECT_NE(grey.find(noTurn), std::string::npos) << grey;
+  EXPECT_EQ(grey.find(noScale), std::string::npos) << grey;
+  const std::string black = said({"--background", "0,0,0", "--background-strength", "2"});
+  EXPECT_NE(black.find(noScale), std::string::npos) << black;
+  const std::string map =
+      said({"--background", "sky.exr", "--background-rotation", "30", "--background-strength", "2"});
+  EXPECT_EQ(map.find("changes nothing"), std::string::npos) << map;
+}
+
 TEST(Background, FlawedTexelsAreMendedAndCountedInOneWarning) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
                   kInf = std::numeric_limits<float>::infinity();

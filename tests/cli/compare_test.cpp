@@ -10,7 +10,7 @@ namespace {
 using Json = nlohmann::json;
 
 void writeFlat(const std::filesystem::path& file, std::uint8_t code) {
-  writeRgb8(file, 16, 16, std::vector<std::uint8_t>(std::size_t{16} * 16 * 3, code), {});
+  writeCodes(file, {16, 16, 3, std::vector<std::uint8_t>(std::size_t{16} * 16 * 3, code)}, {});
 }
 
 Json compared(const Folder& folder, const char* a, const char* b) {

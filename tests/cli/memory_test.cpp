@@ -31,6 +31,13 @@ TEST(MemoryLimit, IsASize) {
   }
 }
 
+TEST(MemoryLimit, WithoutAUnitIsTakenForAForgottenOne) {
+  const Outcome run = limited("info", "4");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err,
+            "whittle: --memory-limit: '4' is 4 B, less than anything takes; sizes have units: 500M, 4G\n");
+}
+
 TEST(MemoryLimit, BindsEveryCommandThatReadsAScene) {
   for (const char* command : {"render", "reference", "info"}) {
     const Outcome small = limited(command, "50M");

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <thread>
 
@@ -45,6 +47,62 @@ TEST(Outputs, WithoutAnyThePictureIsNamedAfterTheScene) {
   const Outcome run = runWhittle(smallRender({}), {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(folder.names(), Names{"cornell_box.png"});
+}
+
+/// Every fourth value of a file of four channels, as it stands there: colours of .png are not divided by it.
+std::vector<float> rgbaOf(const std::filesystem::path& file) {
+  OIIO::ImageSpec asTheyAre;
+  asTheyAre.attribute("oiio:UnassociatedAlpha", 1);
+  const auto input = OIIO::ImageInput::open(file.string(), &asTheyAre);
+  EXPECT_TRUE(input && input->spec().nchannels == 4) << file;
+  if (!input || input->spec().nchannels != 4) return {};
+  EXPECT_EQ(input->spec().alpha_channel, 3) << file;
+  std::vector<float> values(static_cast<std::size_t>(input->spec().width) * input->spec().height * 4);
+  EXPECT_TRUE(input->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, values.data()));
+  return values;
+}
+
+/// A picture that is half there: .exr holds radiance that is multiplied by alpha, .png colours that are not.
+TEST(Outputs, AlphaIsAFourthChannel) {
+  const Folder folder;
+  const std::vector<std::string> args{"-o",         "a.exr", "-o",         "a.png", "--aov",  "all=all.exr",
+                                      "--exposure", "0",     "--tone-map", "none",  "--alpha"};
+  for (const char* command : {"render", "reference"}) {
+    std::vector<std::string> all{command, scene("nested_glass.glb"), "--width", "32", "--height",
+                                 "18",    "--rays-per-pixel",        "4"};
+    all.insert(all.end(), args.begin(), args.end());
+    const Outcome run = runWhittle(all, {folder.path(), {}});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const std::vector<float> radiance = rgbaOf(folder / "a.exr"), codes = rgbaOf(folder / "a.png");
+    ASSERT_EQ(radiance.size(), codes.size());
+    std::size_t clear = 0, partly = 0, solid = 0;
+    for (std::size_t p = 0; p < radiance.size(); p += 4) {
+      const float alpha = radiance[p + 3];
+      EXPECT_NEAR(codes[p + 3], alpha, 0.5 / 255 + 1e-6);
+      ++(alpha == 0 ? clear : alpha == 1 ? solid : partly);
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_FALSE(alpha == 0 && radiance[p + c] != 0) << "the background is left out";
+        const double v = alpha > 0 ? std::clamp(radiance[p + c] / alpha, 0.0F, 1.0F) : 0;
+        const double code = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+        EXPECT_NEAR(codes[p + c], code, 0.5 / 255 + 1e-5) << "pixel " << p / 4;
+      }
+    }
+    EXPECT_GT(clear, 0U);
+    EXPECT_GT(partly, 0U);
+    EXPECT_GT(solid, 0U);
+    const auto layers = OIIO::ImageInput::open((folder / "all.exr").string());
+    ASSERT_TRUE(layers);
+    const Names& names = layers->spec().channelnames;
+    EXPECT_NE(std::find(names.begin(), names.end(), "A"), names.end());
+  }
+}
+
+TEST(Outputs, AlphaHasNoPlaceInAJpeg) {
+  const Folder folder;
+  const Outcome run = runWhittle(smallRender({"-o", "a.png", "-o", "b.jpg", "--alpha"}), {folder.path(), {}});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("--alpha: b.jpg"), std::string::npos) << run.err;
+  EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(Outputs, ExrCarriesSettingsAndRayCounts) {

@@ -49,7 +49,7 @@ class TemporaryFolder {
 inline std::string pngBytes() {
   const TemporaryFolder folder;
   const std::vector<std::uint8_t> rgb{255, 0, 0, 0, 255, 0};
-  writeRgb8(folder.path() / "a.png", 2, 1, rgb, {});
+  writeCodes(folder.path() / "a.png", {2, 1, 3, rgb}, {});
   std::ifstream stream(folder.path() / "a.png", std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }

@@ -223,7 +223,7 @@ TEST(Png, SamplesAreLightAsItsChunksSay) {
 
 TEST(Png, OursSayThatTheyAreSrgb) {
   const TemporaryFolder folder;
-  writeRgb8(folder / "a.png", 1, 1, std::vector<std::uint8_t>{128, 128, 128}, {});
+  writeCodes(folder / "a.png", {1, 1, 3, std::vector<std::uint8_t>{128, 128, 128}}, {});
   std::ifstream in(folder / "a.png", std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(in)), {});
   EXPECT_NE(bytes.find("sRGB"), std::string::npos);
@@ -236,7 +236,7 @@ TEST(Damaged, PicturesAreReadOrRefusedInOneLine) {
   FloatImage image{24, 16, 3, {}};
   for (int i = 0; i < 24 * 16 * 3; ++i) image.pixels.push_back(static_cast<float>(random() % 1000));
   writeExr(folder / "a.exr", image, {{"key", "value"}});
-  writeRgb8(folder / "a.png", 24, 16, std::vector<std::uint8_t>(24 * 16 * 3, 77), {});
+  writeCodes(folder / "a.png", {24, 16, 3, std::vector<std::uint8_t>(24 * 16 * 3, 77)}, {});
   const Written parts({partOf({"R", "G", "B"}, "one"), partOf({"Z", "left.R", "left.G", "left.B"}, "two")});
   std::string radiance = "#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 9\n";
   for (int row = 0; row < 4; ++row) {

@@ -127,7 +127,7 @@ TEST(DecodeImage, refusesWhatIsBrokenInOneLineWithTheName) {
   for (std::uint32_t i = 0; i < 64 * 64 * 3; ++i)
     rgb.push_back(static_cast<std::uint8_t>(i * i * 2654435761U >> 24U));
   for (const char* name : {"x.png", "x.jpg"}) {
-    writeRgb8(folder / name, 64, 64, rgb, {});
+    writeCodes(folder / name, {64, 64, 3, rgb}, {});
     const std::vector<std::byte> whole = readAll(folder / name);
     for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{20}, whole.size() / 2}) {
       const std::string error = inputErrorOf([&] { decodeImage(std::span(whole).first(size), "wood"); });
@@ -189,7 +189,7 @@ TEST(WriteExr, namesChannelsAndGivesTheSameBytesAgain) {
 TEST(WriteRgb8, pngRoundTripsAndIsReadAsLinear) {
   const TemporaryFolder folder;
   const Bytes rgb{0, 10, 11, 128, 188, 255};
-  writeRgb8(folder / "a.png", 2, 1, rgb, {{"whittle:camera", "front"}});
+  writeCodes(folder / "a.png", {2, 1, 3, rgb}, {{"whittle:camera", "front"}});
   EXPECT_EQ(readImage(folder / "a.png").texels, (Bytes{0, 10, 11, 255, 128, 188, 255, 255}));
   const auto input = OIIO::ImageInput::open((folder / "a.png").string());
   EXPECT_EQ(input->spec().get_string_attribute("whittle:camera"), "front");
@@ -205,13 +205,17 @@ TEST(WriteRgb8, pngRoundTripsAndIsReadAsLinear) {
 TEST(WriteRgb8, refusesBadExtensionsFoldersAndSizes) {
   const TemporaryFolder folder;
   const Bytes rgb(3, 0);
-  EXPECT_NE(inputErrorOf([&] { writeRgb8(folder / "a.exr", 1, 1, rgb, {}); }).find(".png"),
+  EXPECT_NE(inputErrorOf([&] {
+              writeCodes(folder / "a.exr", {1, 1, 3, rgb}, {});
+            }).find(".png"),
             std::string::npos);
-  EXPECT_NE(inputErrorOf([&] { writeRgb8(folder / "no/a.png", 1, 1, rgb, {}); }).find("does not exist"),
+  EXPECT_NE(inputErrorOf([&] {
+              writeCodes(folder / "no/a.png", {1, 1, 3, rgb}, {});
+            }).find("does not exist"),
             std::string::npos);
   EXPECT_NE(inputErrorOf([&] { writeExr(folder / "a.png", testPattern(1, 1, 3), {}); }).find(".exr"),
             std::string::npos);
-  EXPECT_THROW(writeRgb8(folder / "a.png", 2, 1, rgb, {}), std::runtime_error);
+  EXPECT_THROW(writeCodes(folder / "a.png", {2, 1, 3, rgb}, {}), std::runtime_error);
   EXPECT_EQ(folder.fileCount(), 0);
 }
 

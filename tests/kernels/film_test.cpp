@@ -16,10 +16,10 @@ constexpr std::uint32_t kPixels = 7;  // of the picture
 class FilmBench {
  public:
   FilmBench() : bench({"film.cl"}) {
-    sums_ = bench.compute.upload("sums", std::vector<float>(FILM_PLANES * kPixels, 0.0F));
+    sums_ = bench.compute.upload("sums", std::vector<float>(FILM_PLANES_COVERAGE * kPixels, 0.0F));
     counters_ = bench.compute.upload("counters", std::vector<std::uint32_t>(COUNTERS, 0));
   }
-  /// samples: [3][capacity], as many slots as the batch has.
+  /// samples: [RADIANCE_PLANES_COVERAGE][capacity], as many slots as the batch has.
   void add(const device::Batch& batch, std::uint32_t capacity, const std::vector<float>& samples) {
     bench.stages.run(stages::Film{.batch = batch,
                                   .capacity = capacity,
@@ -29,7 +29,7 @@ class FilmBench {
                                   .sums = sums_,
                                   .counters = counters_});
   }
-  std::vector<float> sums() { return bench.read<float>(sums_, FILM_PLANES * kPixels); }
+  std::vector<float> sums() { return bench.read<float>(sums_, FILM_PLANES_COVERAGE * kPixels); }
   std::uint32_t nonFinite() { return bench.read<std::uint32_t>(counters_, COUNTERS)[COUNTER_NONFINITE]; }
   test::KernelBench bench;
 
@@ -41,7 +41,7 @@ TEST(Film, AMillionTimesATenth) {
   FilmBench film;
   constexpr std::uint32_t kSamples = 50000, kBatches = 20, kFirst = 2, kCount = 3;
   const std::uint32_t capacity = kSamples * kCount;
-  std::vector<float> samples(3 * capacity, 0.1F);
+  std::vector<float> samples(RADIANCE_PLANES_COVERAGE * capacity, 0.1F);
   for (std::uint32_t i = 0; i < capacity; ++i) samples[2 * capacity + i] = 0.025F;  // blue
   float naive = 0.0F;
   for (std::uint32_t b = 0; b < kBatches; ++b) {
@@ -61,6 +61,7 @@ TEST(Film, AMillionTimesATenth) {
     EXPECT_NEAR(mean(FILM_SUM, FILM_COMPENSATION, pixel), inside ? 0.1 : 0.0, 1e-7);
     EXPECT_NEAR(mean(FILM_SUM + 1, FILM_COMPENSATION + 1, pixel), inside ? 0.1 : 0.0, 1e-7);
     EXPECT_NEAR(mean(FILM_SUM + 2, FILM_COMPENSATION + 2, pixel), inside ? 0.025 : 0.0, 1e-7);
+    EXPECT_NEAR(mean(FILM_TRANSMITTANCE, FILM_TRANSMITTANCE_COMPENSATION, pixel), inside ? 0.1 : 0.0, 1e-7);
     EXPECT_NEAR(mean(FILM_SQUARES, FILM_SQUARES_COMPENSATION, pixel), inside ? square : 0.0, 1e-8);
   }
   EXPECT_GT(std::abs(static_cast<double>(naive) / n - 0.1), 5e-4) << "an uncompensated sum would not do";
@@ -70,10 +71,11 @@ TEST(Film, AMillionTimesATenth) {
 TEST(Film, SamplesThatAreNotFiniteAreCountedAndLeftOut) {
   FilmBench film;
   constexpr std::uint32_t kSamples = 4, kCapacity = 64;
-  std::vector<float> samples(3 * kCapacity,
+  std::vector<float> samples(RADIANCE_PLANES_COVERAGE * kCapacity,
                              std::nanf(""));  // beyond the batch: rubbish that must not be read
   for (std::uint32_t slot = 0; slot < kPixels * kSamples; ++slot)
-    for (std::uint32_t c = 0; c < 3; ++c) samples[c * kCapacity + slot] = static_cast<float>(slot + 1 + c);
+    for (std::uint32_t c = 0; c < RADIANCE_PLANES_COVERAGE; ++c)
+      samples[c * kCapacity + slot] = static_cast<float>(slot + 1 + c);
   samples[0 * kCapacity + 5] = std::nanf("");
   samples[1 * kCapacity + 10] = INFINITY;
   samples[2 * kCapacity + 11] = -INFINITY;
@@ -81,11 +83,12 @@ TEST(Film, SamplesThatAreNotFiniteAreCountedAndLeftOut) {
   EXPECT_EQ(film.nonFinite(), 3U);
   const auto sums = film.sums();
   for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
-    for (std::uint32_t c = 0; c < 3; ++c) {
+    for (std::uint32_t c = 0; c < RADIANCE_PLANES_COVERAGE; ++c) {
+      const std::uint32_t plane = c == RADIANCE_TRANSMITTANCE ? FILM_TRANSMITTANCE : FILM_SUM + c;
       float expected = 0.0F;  // small integers: exact
       for (std::uint32_t slot = pixel * kSamples; slot < (pixel + 1) * kSamples; ++slot)
         if (slot != 5 && slot != 10 && slot != 11) expected += static_cast<float>(slot + 1 + c);
-      EXPECT_EQ(sums[(FILM_SUM + c) * kPixels + pixel], expected) << "pixel " << pixel << " channel " << c;
+      EXPECT_EQ(sums[plane * kPixels + pixel], expected) << "pixel " << pixel << " channel " << c;
     }
   }
 }
@@ -102,7 +105,8 @@ TEST(Accumulate, SameBitsAsASerialSum) {
     slots.insert(slots.end(), lengths[run % std::size(lengths)],
                  (run * 7) % kCapacity);  // not in order: any slot may follow
   slots.resize(kCapacity);
-  std::vector<float> rays(RAY_PLANES * kCapacity), radiance(3 * kCapacity), before(3 * kCapacity);
+  constexpr std::size_t kRadiance = std::size_t{RADIANCE_PLANES_COVERAGE} * kCapacity;
+  std::vector<float> rays(RAY_PLANES * kCapacity), radiance(kRadiance), before(kRadiance);
   for (float& x : rays) x = rng.unit();
   for (float& x : radiance) x = rng.unit() * 10;
   for (float& x : before) x = rng.unit();
@@ -114,6 +118,12 @@ TEST(Accumulate, SameBitsAsASerialSum) {
       for (std::uint32_t c = 0; c < 3; ++c)
         expected[c * kCapacity + slots[first + k]] +=
             rays[(RAY_THROUGHPUT + c) * kCapacity + first + k] * radiance[c * kCapacity + k];
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const float* const throughput = &rays[RAY_THROUGHPUT * kCapacity + first + k];
+      expected[RADIANCE_TRANSMITTANCE * kCapacity + slots[first + k]] +=
+          (throughput[0] + throughput[kCapacity] + throughput[2 * kCapacity]) * (1.0F / 3.0F) *
+          radiance[RADIANCE_TRANSMITTANCE * kCapacity + k];
+    }
     const Buffer samples = bench.compute.upload("sampleRadiance", before);
     bench.stages.run(stages::Accumulate{.first = first,
                                         .count = count,
@@ -121,7 +131,7 @@ TEST(Accumulate, SameBitsAsASerialSum) {
                                         .rays = bench.compute.upload("rays", rays),
                                         .entryRadiance = bench.compute.upload("entryRadiance", radiance),
                                         .sampleRadiance = samples});
-    EXPECT_EQ(bench.read<float>(samples, 3 * kCapacity), expected)
+    EXPECT_EQ(bench.read<float>(samples, kRadiance), expected)
         << "entries " << first << " to " << first + count;
   }
 }

@@ -129,8 +129,8 @@ class OiioCodec final : public ImageCodec {
   FloatImage readFloatImage(const fs::path& path) const override;
   void writeExr(const fs::path& path, const FloatImage& image, const ImageMetadata& metadata,
                 const std::vector<std::string>& channelNames) const override;
-  void writeRgb8(const fs::path& path, const std::string& format, int width, int height,
-                 std::span<const std::uint8_t> rgb, const ImageMetadata& metadata) const override;
+  void writeCodes(const fs::path& path, const std::string& format, const CodeImage& image,
+                  const ImageMetadata& metadata) const override;
 };
 
 Image OiioCodec::decodeImage(std::span<const std::byte> bytes, const std::string& name) const {
@@ -179,11 +179,12 @@ void OiioCodec::writeExr(const fs::path& path, const FloatImage& image, const Im
   encodeAndWrite(path, "openexr", spec, image.pixels.data());
 }
 
-void OiioCodec::writeRgb8(const fs::path& path, const std::string& format, int width, int height,
-                          std::span<const std::uint8_t> rgb, const ImageMetadata& metadata) const {
-  checkPixelCount(path, width, height, 3, rgb.size());
-  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+void OiioCodec::writeCodes(const fs::path& path, const std::string& format, const CodeImage& image,
+                           const ImageMetadata& metadata) const {
+  checkPixelCount(path, image.width, image.height, image.channels, image.codes.size());
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("oiio:UnassociatedAlpha", 1);  // as it is: no division by alpha
   if (format == "jpeg") {
     spec.attribute("Compression", "jpeg:95");
     spec.attribute("jpeg:subsampling", "4:4:4");  // coloured edges stay sharp
@@ -194,7 +195,7 @@ void OiioCodec::writeRgb8(const fs::path& path, const std::string& format, int w
     description += fmt::format("{}{}: {}", description.empty() ? "" : "\n", key, value);
   }
   if (format == "jpeg" && !description.empty()) spec.attribute("ImageDescription", description);
-  encodeAndWrite(path, format, spec, rgb.data());
+  encodeAndWrite(path, format, spec, image.codes.data());
 }
 
 }  // namespace

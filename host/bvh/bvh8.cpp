@@ -2,7 +2,9 @@
 // are put behind one another, depth-first, once all sizes are known.
 #include "bvh/bvh8.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <memory>
@@ -36,14 +38,9 @@ struct InnerChildren {
 
 class Collapse {
  public:
-  Collapse(const TriTree& tree, std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
-      : tree_(tree), positions_(positions), triangles_(triangles), plan_(tree) {
-    corners_.resize(tree.order.size() * 9 + kLanes);
-    std::fill_n(corners_.end() - kLanes, kLanes, 0.0F);
-  }
+  explicit Collapse(const TriTree& tree) : tree_(tree), plan_(tree) {}
 
   std::unique_ptr<Part> run() { return buildPart({0, static_cast<std::int32_t>(tree_.nodes.size()), 1, 0}); }
-  UninitializedVector<float> takeCorners() { return std::move(corners_); }
 
  private:
   std::unique_ptr<Part> buildPart(const Pending& top) {
@@ -157,24 +154,13 @@ class Collapse {
     return static_cast<std::int32_t>(part.nodes.size() - 1);
   }
 
-  std::int32_t addLeaf(std::uint32_t first, std::uint32_t count, Part& part) {
-    float* out = corners_.data() + std::size_t{9} * first;
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
-      const glm::uvec3& t = triangles_[tree_.order[first + lane]];
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const glm::vec3& corner = positions_[t[static_cast<int>(k)]];
-        for (std::uint32_t a = 0; a < 3; ++a) out[(3 * k + a) * count + lane] = corner[static_cast<int>(a)];
-      }
-    }
+  static std::int32_t addLeaf(std::uint32_t first, std::uint32_t count, Part& part) {
     ++part.leaves;
     return ~static_cast<std::int32_t>(first << 3U | (count - 1));
   }
 
   const TriTree& tree_;
-  std::span<const glm::vec3> positions_;
-  std::span<const glm::uvec3> triangles_;
   Bvh8Plan plan_;
-  UninitializedVector<float> corners_;
 };
 
 /// Where the nodes of a part go.
@@ -196,6 +182,25 @@ std::int32_t place(Part& part, std::int32_t base, std::vector<Placed>& all) {
   return next;
 }
 
+/// A leaf as its parent names it.
+struct Leaf {
+  std::uint32_t first, count;
+  bool operator<(const Leaf& other) const { return first < other.first; }
+};
+
+std::vector<Leaf> leavesInOrder(const Bvh8& wide) {
+  std::vector<Leaf> leaves;
+  leaves.reserve(wide.leaves);
+  for (const Bvh8Node& node : wide.nodes)
+    for (const std::int32_t child : node.child)
+      if (child < 0) {
+        const auto packed = static_cast<std::uint32_t>(~child);
+        leaves.push_back({packed >> 3U, (packed & 7U) + 1});
+      }
+  tbb::parallel_sort(leaves.begin(), leaves.end());
+  return leaves;
+}
+
 UninitializedVector<Bvh8Node> join(Part& top) {
   std::vector<Placed> all;
   UninitializedVector<Bvh8Node> nodes;
@@ -214,19 +219,40 @@ UninitializedVector<Bvh8Node> join(Part& top) {
 
 }  // namespace
 
-Bvh8 buildBvh8(const TriTree& tree, std::span<const glm::vec3> positions,
-               std::span<const glm::uvec3> triangles) {
+Bvh8 buildBvh8(const TriTree& tree) {
   Bvh8 wide;
-  std::unique_ptr<Part> top;
-  {  // The plan goes before the parts are joined.
-    Collapse collapse(tree, positions, triangles);
-    top = collapse.run();
-    wide.corners = collapse.takeCorners();
-  }
+  std::unique_ptr<Part> top = Collapse(tree).run();  // its plan goes before the parts are joined
   wide.nodes = join(*top);
   wide.leaves = top->leaves;
   wide.depth = top->depth;
   return wide;
+}
+
+void eachLeafPart(const Bvh8& wide, const TriTree& tree, const CornersOf& cornersOf,
+                  const TakeLeafFloats& take) {
+  constexpr std::size_t kAtOnce = 1 << 14;  // leaves: some 2 MB
+  const std::vector<Leaf> leaves = leavesInOrder(wide);
+  UninitializedVector<float> part;
+  for (std::size_t begin = 0; begin < leaves.size(); begin += kAtOnce) {
+    const std::size_t end = std::min(begin + kAtOnce, leaves.size());
+    const std::size_t from = leaves[begin].first, to = leaves[end - 1].first + leaves[end - 1].count;
+    part.resize(9 * (to - from));
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 256), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const auto [first, count] = leaves[i];
+        float* const out = part.data() + 9 * (first - from);
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
+          const std::array<glm::vec3, 3> corners = cornersOf(tree.order[first + lane]);
+          for (std::uint32_t k = 0; k < 3; ++k)
+            for (std::uint32_t a = 0; a < 3; ++a)
+              out[(3 * k + a) * count + lane] = corners[k][static_cast<int>(a)];
+        }
+      }
+    });
+    take(9 * from, part);
+  }
+  const float beyond[kLanes] = {};
+  take(leafFloats(tree) - kLanes, beyond);
 }
 
 }  // namespace whittle

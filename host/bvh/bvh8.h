@@ -2,7 +2,9 @@
 // boxes or eight triangles at once.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -24,10 +26,6 @@ static_assert(sizeof(Bvh8Node) == 256);
 
 struct Bvh8 {
   UninitializedVector<Bvh8Node> nodes;  ///< nodes[0] is the root
-  /// Corners of the triangles, m, leaf by leaf as a struct of arrays: coordinate `axis` of corner k of
-  /// triangle first + lane is corners[9 first + (3 k + axis) count + lane]. Eight floats more at the end, so
-  /// that a lane beyond the last leaf's count may be read.
-  UninitializedVector<float> corners;
   std::size_t leaves = 0;
   int depth = 0;  ///< nodes on the longest way down
 };
@@ -36,7 +34,21 @@ struct Bvh8 {
 /// become nodes of their own, which are handed up to their parent's free lanes, which become leaves (Ylitie,
 /// Karras, Laine 2017). Opening the child of the largest box until there are eight instead leaves half of the
 /// lanes empty. Parallel with TBB over the calling arena's threads; the result depends on the input alone.
-Bvh8 buildBvh8(const TriTree& tree, std::span<const glm::vec3> positions,
-               std::span<const glm::uvec3> triangles);
+Bvh8 buildBvh8(const TriTree& tree);
+
+/// Floats of the leaves' corners: nine for each triangle, and eight more, so that a lane beyond the last
+/// leaf's count may be read.
+inline std::size_t leafFloats(const TriTree& tree) { return 9 * tree.order.size() + 8; }
+
+/// Corners, m, of a triangle of those that the tree was built of.
+using CornersOf = std::function<std::array<glm::vec3, 3>(std::uint32_t triangle)>;
+/// Receives floats [first, first + part.size()) of them.
+using TakeLeafFloats = std::function<void(std::size_t first, std::span<const float> part)>;
+
+/// Corners of the triangles, m, leaf by leaf as a struct of arrays: coordinate `axis` of corner k of triangle
+/// first + lane is float 9 first + (3 k + axis) count + lane. They are made and handed over some at a time,
+/// in their order: all of them are more than the tree. Parallel within a part.
+void eachLeafPart(const Bvh8& wide, const TriTree& tree, const CornersOf& cornersOf,
+                  const TakeLeafFloats& take);
 
 }  // namespace whittle

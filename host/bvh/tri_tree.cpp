@@ -99,7 +99,7 @@ TriTree buildTriTree(std::span<const glm::vec3> positions, std::span<const glm::
   tree.order.resize(all.size());
   const TriTreeBuilder builder({refs.data(), all.size()}, tree.order, options);
   std::unique_ptr<Subtree> top = builder.build(all);
-  refs = {};
+  UninitializedVector<PrimRef>().swap(refs);  // an assignment from {} would keep the memory
   tree.depth = top->depth;
   tree.nodes.reserve(countNodes(*top));
   adviseLargePages(tree.nodes.data(), tree.nodes.capacity() * sizeof(TreeNode));

@@ -91,10 +91,7 @@ RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const Floa
   hooks.timeStages = o.profile || trace || !o.stats.empty();
   hooks.trace = trace;
   hooks.compiler = "/proc/self/exe";
-  hooks.imageUploaded = [&](std::size_t image) {
-    scene.images[image].texels = {};
-    scene.images[image].deepTexels = {};
-  };
+  hooks.consumed = &scene;
   std::future<void> codec;  // loaded while kernels are compiled
   hooks.phase = [&](const std::string& text) {
     bar.phase(text);

@@ -34,6 +34,19 @@ struct MeshSums {
   bool has[std::size(kAttributes)] = {};
 };
 
+/// What is there for a moment beside a part of a mesh: one attribute and the corners while they are read,
+/// tangents while they are made, what directions become in world space.
+double passingBytes(const Document& document, const tinygltf::Primitive& p, double corners, double vertices) {
+  constexpr double kAttribute = 16, kCorner = 4, kPlace = 4.125, kNormal = 12, kTangent = 16, kMaking = 44;
+  const bool hasNormal = p.attributes.contains("NORMAL"), hasTangent = p.attributes.contains("TANGENT");
+  const double reading = kAttribute * vertices + kCorner * corners;
+  const double baking = (kPlace + (hasNormal ? kNormal : 0) + (hasTangent ? kTangent : 0)) * vertices;
+  const Json& materials = child(document.json, "materials");
+  const bool makesTangents = !hasTangent && p.material >= 0 && at(p.material) < materials.size() &&
+                             materials[at(p.material)].contains("normalTexture");
+  return std::max({reading, baking, makesTangents ? kMaking * vertices + kCorner * corners : 0.0});
+}
+
 MeshSums sumMesh(const Document& document, int mesh) {
   MeshSums sums;
   for (const tinygltf::Primitive& p : document.model.meshes[at(mesh)].primitives) {
@@ -55,8 +68,7 @@ MeshSums sumMesh(const Document& document, int mesh) {
     std::size_t targets = 0;
     for (const auto& target : p.targets) targets += target.size();
     sums.reads += corners + 3 * vertices * static_cast<double>(p.attributes.size() + targets);
-    // One attribute, the corners, and the copy in world space, for a moment each.
-    sums.largest = std::max(sums.largest, bytes + 4 * corners + 44 * vertices);
+    sums.largest = std::max(sums.largest, bytes + passingBytes(document, p, corners, vertices));
   }
   return sums;
 }

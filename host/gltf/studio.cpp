@@ -42,7 +42,7 @@ glm::dvec3 towards(const Frame& frame, const Lamp& lamp) {
 }
 
 glm::dvec3 radianceFrom(const Frame& frame, const glm::dvec3& d) {
-  const glm::dvec3 horizon(0.19, 0.2, 0.21), zenith(0.36, 0.38, 0.4), nadir(0.07, 0.07, 0.07);
+  const glm::dvec3 horizon(0.075, 0.08, 0.087), zenith(0.32, 0.34, 0.36), nadir(0.03, 0.03, 0.03);
   const double height = std::abs(d.y);
   glm::dvec3 radiance = glm::mix(horizon, d.y > 0 ? zenith : nadir, height);
   for (const Lamp& lamp : kLamps) {

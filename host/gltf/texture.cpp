@@ -9,6 +9,7 @@
 #include "gltf/container.h"
 #include "gltf/uri.h"
 #include "image/image_io.h"
+#include "scene/free_array.h"
 #include "scene/input_error.h"
 
 namespace whittle::gltf {
@@ -121,7 +122,7 @@ void TextureReader::dropUnreadTexels() {
       if (const TextureSlot& slot = material.*kTextureSlots[i]; slot.used() && kSlotIsLinear[i])
         isRead[static_cast<std::size_t>(slot.image)] = true;
   for (std::size_t i = 0; i < isRead.size(); ++i)
-    if (!isRead[i]) std::vector<std::uint16_t>().swap(scene_.images[i].deepTexels);
+    if (!isRead[i]) freeArray(scene_.images[i].deepTexels);
 }
 
 Image TextureReader::read(std::size_t image) {

@@ -58,15 +58,14 @@ class DeviceBytes {
 };
 
 /// What upload holds on this side beside the tree, at its most.
-std::uint64_t uploadBytes(const Scene& scene, const RenderPlan& plan, std::uint64_t tree) {
+std::uint64_t uploadBytes(const RenderPlan& plan, std::uint64_t tree) {
   const DeviceBytes device(plan);
-  const std::uint64_t triangles = scene.triangles.size();
   const std::uint64_t wide = device.named("bvh8Nodes"), leaves = device.named("leaves");
-  const std::uint64_t hittable = 12 * triangles, planned = 44 * plan.treeNodes;
-  const std::uint64_t collapse = planned + leaves + wide, join = leaves + 2 * wide;
-  const std::uint64_t copied = std::max(leaves + 2 * wide, wide + 2 * leaves);
-  const std::uint64_t made = wide + leaves + device.named("nodes") * 2 + device.named("triangles");
-  return tree + hittable + std::max({wide > 0 ? std::max({collapse, join, copied}) : 0, made});
+  const std::uint64_t planned = 44 * plan.treeNodes,
+                      order = sizeof(std::uint32_t) * device.named("leaves") / 36;
+  const std::uint64_t made = device.named("nodes") + leaves + wide + device.named("triangles");
+  if (wide == 0) return tree + device.named("nodes") + made;
+  return std::max({tree + planned + wide, tree + 2 * wide, order + wide + made});
 }
 
 }  // namespace
@@ -86,10 +85,12 @@ std::uint64_t peakBytes(const Scene& scene, const RenderPlan& plan, std::uint64_
   const std::uint64_t tree =
       sizeof(TreeNode) * plan.treeNodes + sizeof(std::uint32_t) * (plan.treeNodes > 0 ? triangles : 0);
   const std::uint64_t build = tree + (plan.treeNodes > 0 ? (sizeof(PrimRef) + 12) * triangles : 0);
-  const std::uint64_t upload = uploadBytes(scene, plan, tree);
-  // An image leaves this side when it has come to the other.
-  const std::uint64_t whole = bytesOf(scene), texels = device.named("texels"), drawn = whole - texels;
-  std::uint64_t largest = 0;
+  const std::uint64_t upload = uploadBytes(plan, tree);
+  // Attributes and images leave this side when they have come to the other.
+  const std::uint64_t attributes =
+      bytesOf(scene.normals) + bytesOf(scene.tangents) + bytesOf(scene.uv0) + bytesOf(scene.uv1);
+  const std::uint64_t whole = bytesOf(scene), drawn = whole - attributes - device.named("texels");
+  std::uint64_t largest = std::max(bytesOf(scene.normals), bytesOf(scene.tangents));
   for (const Image& image : scene.images)
     largest = std::max(largest, bytesOf(image.texels) + bytesOf(image.deepTexels));
   const std::uint64_t uploading = drawn + device.all() + largest;

@@ -17,7 +17,7 @@ inline constexpr std::uint64_t kRuntimeBytes = 138'000'000;
 /// What compiling them takes besides, where they are not: the first render of a kind of scene.
 inline constexpr std::uint64_t kCompilerBytes = 150'000'000;
 /// For each triangle beside the scene's arrays, while the tree is built and uploaded.
-inline constexpr std::uint64_t kTriangleBytes = 200;
+inline constexpr std::uint64_t kTriangleBytes = 150;
 
 /// Film and picture: all that grows with the number of pixels.
 std::uint64_t pictureBytes(const Settings& settings);

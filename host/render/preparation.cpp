@@ -8,6 +8,7 @@
 #include "cl/device.h"
 #include "scene/byte_counts.h"
 #include "scene/camera.h"
+#include "scene/free_array.h"
 #include "scene/input_error.h"
 #include "scene/machine_memory.h"
 #include "wavefront/camera_to_device.h"
@@ -91,7 +92,7 @@ TriTree buildTree(const Scene& scene, const Decisions& decisions) {
     corners.reserve(scene.triangles.size());
     for (const auto& t : scene.triangles) corners.emplace_back(t.v0, t.v1, t.v2);
     tree = buildTriTree(scene.positions, corners);
-    corners = {};
+    freeArray(corners);
     returnFreedMemory();  // of its subtrees
     return tree;
   }
@@ -111,8 +112,8 @@ std::uint32_t queueCapacity(const Settings& s) {
 }  // namespace
 
 SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
-                           const Decisions& decisions, const TriTree& tree, const ImageUploaded& uploaded) {
-  return {uploadScene(compute, scene, decisions.pruned, tree, decisions.features, uploaded),
+                           const Decisions& decisions, TriTree tree, Scene* consumed) {
+  return {uploadScene(compute, scene, decisions.pruned, std::move(tree), decisions.features, consumed),
           RayQueues(compute, decisions.features, queueCapacity(settings), decisions.compactChunk)};
 }
 

@@ -54,10 +54,9 @@ struct SceneBuffers {
 
   void report(std::vector<BufferStats>& out) const;
 };
-/// Throws ClError that names the buffer that does not fit. `uploaded`: see uploadScene.
+/// Throws ClError that names the buffer that does not fit. `consumed`: see uploadScene.
 SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
-                           const Decisions& decisions, const TriTree& tree,
-                           const ImageUploaded& uploaded = {});
+                           const Decisions& decisions, TriTree tree, Scene* consumed = nullptr);
 
 /// With the sizes that were chosen where the user left them open.
 Settings settingsInEffect(const Settings& settings, const Decisions& decisions, const RayQueues& queues);

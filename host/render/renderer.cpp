@@ -149,9 +149,9 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
   const PictureBuffers picture = allocatePicture(compute, settings, decisions, Compute::Memory::Real);
   const double pictureSeconds = PhaseLog::secondsSince(allocating);
   SceneBuffers memory = [&] {
-    const TriTree tree = log.time("build tree", [&] { return buildTree(scene, decisions); });
+    TriTree tree = log.time("build tree", [&] { return buildTree(scene, decisions); });
     return log.time("upload", [&] {
-      return allocateScene(compute, scene, settings, decisions, tree, hooks.imageUploaded);
+      return allocateScene(compute, scene, settings, decisions, std::move(tree), hooks.consumed);
     });
   }();
   const auto [programs, compileSeconds] = compiled.get();

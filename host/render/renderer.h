@@ -51,8 +51,9 @@ struct RenderHooks {
   /// False: the command queue keeps no times, so that Stats' stages have none.
   bool timeStages = true;
   Trace* trace = nullptr;  ///< records launches and phases, needs timeStages; null: nothing is kept
-  /// The device has the image of this index: whoever owns the scene may take its texels away. May be empty.
-  std::function<void(std::size_t image)> imageUploaded;
+  /// Null, or the scene that is rendered: what is not read after the upload may be taken out of it
+  /// (uploadScene).
+  Scene* consumed = nullptr;
   /// Opened before, with timeStages, in place of the device that the settings name; null: the render opens
   /// its own.
   OpenDevice* device = nullptr;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -13,6 +14,8 @@
 #include <utility>
 
 #include "kernels/shared/layout.h"
+#include "scene/free_array.h"
+#include "scene/machine_memory.h"
 #include "scene/material_predicates.h"
 
 namespace whittle {
@@ -49,7 +52,7 @@ class TextureAtlas {
 
   /// The texels of all images as words, the first channel lowest; they go from the images to the device
   /// without another copy in between, an image after the other.
-  Buffer upload(Compute& compute, const ImageUploaded& uploaded) const {
+  Buffer upload(Compute& compute, Scene* consumed) const {
     static_assert(std::endian::native == std::endian::little);
     Buffer buffer = compute.allocate("texels", std::size_t{words_} * 4);
     for (auto next = first_.begin(); next != first_.end();) {
@@ -61,7 +64,10 @@ class TextureAtlas {
       const int index = key.first;
       ++next;
       const bool whole = next == first_.end() || next->first.first != index;
-      if (whole && uploaded) uploaded(pruned_.images[static_cast<std::size_t>(index)]);
+      if (!whole || !consumed) continue;
+      Image& taken = consumed->images[pruned_.images[static_cast<std::size_t>(index)]];
+      freeArray(taken.texels);
+      freeArray(taken.deepTexels);
     }
     return buffer;
   }
@@ -135,22 +141,17 @@ bool hasArea(const glm::vec3& p0, const glm::vec3& p1, const glm::vec3& p2) {
   return a.y * b.z != a.z * b.y || a.z * b.x != a.x * b.z || a.x * b.y != a.y * b.x;
 }
 
-/// Corners of every triangle. Rounding could open a triangle without area in the plane across a ray: as a
-/// point nothing hits it.
-std::vector<glm::uvec3> hittableCorners(const Scene& scene) {
-  std::vector<glm::uvec3> corners;
-  corners.reserve(scene.triangles.size());
-  for (const Triangle& t : scene.triangles)
-    corners.push_back(hasArea(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2])
-                          ? glm::uvec3(t.v0, t.v1, t.v2)
-                          : glm::uvec3(t.v0));
-  return corners;
+/// Rounding could open a triangle without area in the plane across a ray: as a point nothing hits it.
+std::array<glm::vec3, 3> hittableCorners(const Scene& scene, std::uint32_t triangle) {
+  const Triangle& t = scene.triangles[triangle];
+  const glm::vec3 &p0 = scene.positions[t.v0], &p1 = scene.positions[t.v1], &p2 = scene.positions[t.v2];
+  return hasArea(p0, p1, p2) ? std::array{p0, p1, p2} : std::array{p0, p0, p0};
 }
 
 /// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
 /// They are made some at a time: all of them would be more than the tree.
 Buffer uploadTriangles(Compute& compute, const Scene& scene, const PrunedScene& pruned,
-                       const std::vector<glm::uvec3>& corners, const std::vector<std::uint32_t>& order) {
+                       const std::vector<std::uint32_t>& order) {
   constexpr std::size_t kAtOnce = 1 << 16;
   const std::size_t all = order.size() + 1;
   Buffer buffer = compute.allocate("triangles", all * sizeof(device::DeviceTriangle));
@@ -164,7 +165,8 @@ Buffer uploadTriangles(Compute& compute, const Scene& scene, const PrunedScene& 
       }
       const std::uint32_t triangle = order[first + i];
       const std::uint32_t material = pruned.materialOf[scene.triangles[triangle].material];
-      for (int k = 0; k < 3; ++k) copy3(out[i].v[k], scene.positions[corners[triangle][k]]);
+      const std::array<glm::vec3, 3> corners = hittableCorners(scene, triangle);
+      for (std::size_t k = 0; k < 3; ++k) copy3(out[i].v[k], corners[k]);
       out[i].primitive = triangle;
       out[i].material = material;
       out[i].flags = triangleFlags(pruned.materials[material]);
@@ -229,26 +231,36 @@ Buffer uploadVertices(Compute& compute, const std::string& name, const std::vect
   return compute.upload(name, used);
 }
 
-/// Vertices of every triangle in leaf order, and of the degenerate one.
-std::vector<std::uint32_t> cornersOnDevice(const Scene& scene, const PrunedScene& pruned,
-                                           const std::vector<std::uint32_t>& order) {
-  std::vector<std::uint32_t> corners;
-  corners.reserve(order.size() * 3 + 3);
-  for (const std::uint32_t i : order) {
-    const Triangle& t = scene.triangles[i];
-    corners.insert(corners.end(), {t.v0, t.v1, t.v2});
-  }
-  if (!pruned.vertexOf.empty())
-    for (std::uint32_t& v : corners) v = pruned.vertexOf[v];
-  corners.resize(corners.size() + 3);
-  return corners;
-}
-
 /// Two in a word, the first in its low half.
 std::vector<std::uint32_t> packedCorners(const std::vector<std::uint32_t>& corners) {
   std::vector<std::uint32_t> words((corners.size() + 1) / 2);
   for (std::size_t i = 0; i < corners.size(); ++i) words[i / 2] |= corners[i] << (i % 2 * 16);
   return words;
+}
+
+/// Vertices of every triangle in leaf order, and of the degenerate one; some at a time.
+Buffer uploadCorners(Compute& compute, const Scene& scene, const PrunedScene& pruned,
+                     const std::vector<std::uint32_t>& order) {
+  constexpr std::size_t kAtOnce = 1 << 16;  // even, so that two corners in a word are of one part
+  const std::size_t all = 3 * order.size() + 3, words = pruned.narrowCorners ? (all + 1) / 2 : all;
+  Buffer buffer = compute.allocate("corners", words * sizeof(std::uint32_t));
+  std::vector<std::uint32_t> part;
+  std::size_t word = 0;
+  const auto write = [&] {
+    if (pruned.narrowCorners) part = packedCorners(part);
+    compute.write(buffer, word * sizeof(std::uint32_t), std::as_bytes(std::span(part)));
+    word += part.size();
+    part.clear();
+  };
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Triangle& t = scene.triangles[order[i]];
+    for (const std::uint32_t v : {t.v0, t.v1, t.v2})
+      part.push_back(pruned.vertexOf.empty() ? v : pruned.vertexOf[v]);
+    if ((i + 1) % kAtOnce == 0) write();
+  }
+  part.resize(part.size() + 3);
+  write();
+  return buffer;
 }
 
 std::string groupOf(const std::string& name) {
@@ -274,39 +286,44 @@ void DeviceScene::report(std::vector<BufferStats>& out) const {
     if (*b) out.push_back({b->name, groupOf(b->name), b->bytes});
 }
 
-DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, const TriTree& tree,
-                        const SceneFeatures& features, const ImageUploaded& uploaded) {
+DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, TriTree tree,
+                        const SceneFeatures& features, Scene* consumed) {
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
-  std::vector<glm::uvec3> hittable = hittableCorners(scene);
   if (features.has(Feature::TREE) && !features.has(Feature::PACKETS))
     d.nodes = compute.upload("nodes", withSentinels(tree));
   if (features.has(Feature::TREE) && features.has(Feature::PACKETS)) {
-    Bvh8 wide = buildBvh8(tree, scene.positions, hittable);
+    const Bvh8 wide = buildBvh8(tree);
+    freeArray(tree.nodes);
+    returnFreedMemory();  // of the parts that the wide tree was put together from
     if (wide.depth > BVH8_DEPTH)
       throw ClError(fmt::format("the eight-wide tree is {} nodes deep, the kernels have room for {}",
                                 wide.depth, BVH8_DEPTH));
     d.bvh8Nodes = compute.upload("bvh8Nodes", wide.nodes);
-    wide.nodes = {};
-    d.leaves = compute.upload("leaves", wide.corners);
+    d.leaves = compute.allocate("leaves", leafFloats(tree) * sizeof(float));
+    eachLeafPart(
+        wide, tree, [&](std::uint32_t t) { return hittableCorners(scene, t); },
+        [&](std::size_t first, std::span<const float> part) {
+          compute.write(d.leaves, first * sizeof(float), std::as_bytes(part));
+        });
   }
-  d.triangles = uploadTriangles(compute, scene, pruned, hittable, tree.order);
-  hittable = {};
+  d.triangles = uploadTriangles(compute, scene, pruned, tree.order);
   const bool interpolates = features.has(Feature::VERTEX_NORMALS) || features.has(Feature::TEXTURES) ||
                             features.has(Feature::VERTEX_COLORS);
   if (interpolates) {
-    const auto corners = cornersOnDevice(scene, pruned, tree.order);
-    if (pruned.narrowCorners)
-      d.corners = compute.upload("corners", packedCorners(corners));
-    else
-      d.indices32 = compute.upload("corners", corners);
+    Buffer corners = uploadCorners(compute, scene, pruned, tree.order);
+    (pruned.narrowCorners ? d.corners : d.indices32) = std::move(corners);
   }
   if (features.has(Feature::VERTEX_NORMALS))
     d.normals = uploadVertices(compute, "normals", scene.normals, pruned);
+  if (consumed) freeArray(consumed->normals);
   if (features.has(Feature::NORMAL_TEXTURE))
     d.tangents = uploadVertices(compute, "tangents", scene.tangents, pruned);
+  if (consumed) freeArray(consumed->tangents);
   if (features.has(Feature::UV0)) d.uv0 = uploadVertices(compute, "uv0", scene.uv0, pruned);
+  if (consumed) freeArray(consumed->uv0);
   if (features.has(Feature::UV1)) d.uv1 = uploadVertices(compute, "uv1", scene.uv1, pruned);
+  if (consumed) freeArray(consumed->uv1);
   if (features.has(Feature::VERTEX_COLORS))
     d.colors = scene.colors.empty() ? Buffer{} : uploadVertices(compute, "colors", scene.colors, pruned);
   TextureAtlas atlas(scene, pruned);
@@ -316,7 +333,7 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   d.materials = compute.upload("materials", materials);
   if (features.has(Feature::TEXTURES)) {
     d.textures = compute.upload("textures", atlas.slots);
-    d.texels = atlas.upload(compute, uploaded);
+    d.texels = atlas.upload(compute, consumed);
     d.linearFromSrgb = compute.upload("linearFromSrgb", srgbTable());
   }
   const auto lights = lightsToDevice(scene, pruned);

@@ -2,7 +2,7 @@
 // null pointer there.
 #pragma once
 
-#include <functional>
+#include <utility>
 #include <vector>
 
 #include "analysis/scene_features.h"
@@ -28,17 +28,16 @@ struct DeviceScene {
   void report(std::vector<BufferStats>& out) const;
 };
 
-/// Called with the index of an image of the scene once the device has what it needs of it.
-using ImageUploaded = std::function<void(std::size_t image)>;
-
-/// Uploads of `pruned` what `features` needs. Throws ClError naming the buffer that does not fit. `uploaded`,
-/// which may be empty, is called for each image that it uploads and may take its texels away.
-DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, const TriTree& tree,
-                        const SceneFeatures& features, const ImageUploaded& uploaded = {});
+/// Uploads of `pruned` what `features` needs. Throws ClError naming the buffer that does not fit. The
+/// tree's nodes are let go where a wider tree takes their place.
+/// `consumed`: null, or the scene itself, whose owner reads no more of its normals, tangents, texture
+/// coordinates and texels: they are let go as soon as the device has them.
+DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, TriTree tree,
+                        const SceneFeatures& features, Scene* consumed = nullptr);
 /// Of the whole scene, for features that nothing analysed.
-inline DeviceScene uploadScene(Compute& compute, const Scene& scene, const TriTree& tree,
+inline DeviceScene uploadScene(Compute& compute, const Scene& scene, TriTree tree,
                                const SceneFeatures& features) {
-  return uploadScene(compute, scene, unprunedScene(scene), tree, features);
+  return uploadScene(compute, scene, unprunedScene(scene), std::move(tree), features);
 }
 
 }  // namespace whittle

@@ -122,7 +122,7 @@ TEST(MemoryLimit, SmallFilesThatAskForMuchEndAtOnce) {
     return (folder / name).string();
   };
   const std::vector<std::string> bombs{
-      file("instances.gltf", manyTriangles(1 << 24, 3)), file("corners.gltf", manyTriangles(1000, 3 << 20)),
+      file("instances.gltf", manyTriangles(1 << 24, 6)), file("corners.gltf", manyTriangles(1000, 3 << 20)),
       file("both.gltf", manyTriangles(1 << 24, 1 << 24)), file("pixels.gltf", manyPixels(40))};
   for (const std::string& bomb : bombs) {
     const Usage usage = usageOf({"render", bomb, "-o", (folder / "a.png").string(), "--quiet"});

@@ -29,6 +29,7 @@ CHECKS = {
     "contact_sheets": Check("Does any scene come out black, burnt out or empty?",
                             "contact_sheets.py", "contact_sheets.tsv",
                             ("--shapes", "16:9", str(SCENES / "mirror.glb"), str(SCENES / "shadow.glb"))),
+    "tried": Check("Are the small files that showed faults right?", "tried.py", "tried.tsv", ()),
     "agreement": Check("How far are the kernels from the double-precision reference?",
                        "agreement.py", "agreement.tsv", (*SMALL, str(SCENES / "cornell_box.glb"))),
     "limits": Check("Where does a picture go wrong as it grows, moves away or gets brighter?",

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/free_array.h"
+
 namespace whittle::gltf {
 
 namespace {
@@ -128,8 +130,11 @@ void Baker::reserveIndices(const LocalMesh& mesh) {
 }
 
 template <class TransformOf>
-void Baker::bake(const LocalMesh& mesh, std::uint32_t material, const std::string& label,
+void Baker::bake(const LocalMesh& mesh, std::uint32_t material, const std::string& label, LocalMesh* consumed,
                  TransformOf transformOf) {
+  const auto drop = [&](auto member) {
+    if (consumed) freeArray(consumed->*member);
+  };
   reserveIndices(mesh);
   const std::size_t before = scene_.positions.size();
   const auto target = usedVertices(mesh, static_cast<std::uint32_t>(before));
@@ -156,11 +161,19 @@ void Baker::bake(const LocalMesh& mesh, std::uint32_t material, const std::strin
     mirrored[i] = t.isMirrored;
     isSingular = isSingular || t.isSingular;
   }
+  drop(&LocalMesh::positions);
+  drop(&LocalMesh::normals);
+  drop(&LocalMesh::tangents);
   append(scene_.normals, world.normals, target, before, after, vertices_, glm::vec3(0.0F));
+  freeArray(world.normals);
   append(scene_.tangents, world.tangents, target, before, after, vertices_, glm::vec4(0, 0, 0, 1));
+  freeArray(world.tangents);
   append(scene_.uv0, mesh.uv[0], target, before, after, vertices_, glm::vec2(0.0F));
+  if (consumed) freeArray(consumed->uv[0]);
   append(scene_.uv1, mesh.uv[1], target, before, after, vertices_, glm::vec2(0.0F));
+  if (consumed) freeArray(consumed->uv[1]);
   append(scene_.colors, mesh.colors, target, before, after, vertices_, glm::vec4(1.0F));
+  drop(&LocalMesh::colors);
 
   const std::uint64_t degenerateBefore = degenerate_;
   for (const glm::uvec3& t : mesh.triangles) {
@@ -191,15 +204,16 @@ void Baker::addTriangle(const Triangle& triangle) {
 }
 
 void Baker::add(const LocalMesh& mesh, const glm::dmat4& toWorld, std::uint32_t material,
-                const std::string& label) {
+                const std::string& label, LocalMesh* consumed) {
   const VertexTransform transform(toWorld);
-  bake(mesh, material, label, [&transform](std::size_t) -> const VertexTransform& { return transform; });
+  bake(mesh, material, label, consumed,
+       [&transform](std::size_t) -> const VertexTransform& { return transform; });
 }
 
 void Baker::addSkinned(const LocalMesh& mesh, std::span<const glm::dmat4> jointToWorld,
                        std::uint32_t material, const std::string& label) {
   const auto n = static_cast<std::size_t>(mesh.influences);
-  bake(mesh, material, label, [&](std::size_t i) {
+  bake(mesh, material, label, nullptr, [&](std::size_t i) {
     glm::dmat4 blended(0.0);
     double sum = 0.0;
     for (std::size_t k = i * n; k < (i + 1) * n; ++k) {

@@ -18,9 +18,10 @@ class Baker {
   /// Makes room for `sums`, so that nothing is copied while the arrays grow.
   Baker(const Document& document, const GeometrySums& sums, Scene& scene);
 
-  /// One copy of `mesh`. `label` names the node, for messages.
-  void add(const LocalMesh& mesh, const glm::dmat4& toWorld, std::uint32_t material,
-           const std::string& label);
+  /// One copy of `mesh`. `label` names the node, for messages. `consumed`: null, or the mesh itself, which
+  /// nobody reads again: its arrays go as their copies come.
+  void add(const LocalMesh& mesh, const glm::dmat4& toWorld, std::uint32_t material, const std::string& label,
+           LocalMesh* consumed = nullptr);
   /// `jointToWorld`: joint transforms times inverse bind matrices, one for each joint of the skin. Throws
   /// InputError if a vertex names a joint that the skin does not have.
   void addSkinned(const LocalMesh& mesh, std::span<const glm::dmat4> jointToWorld, std::uint32_t material,
@@ -30,7 +31,8 @@ class Baker {
 
  private:
   template <class TransformOf>
-  void bake(const LocalMesh& mesh, std::uint32_t material, const std::string& label, TransformOf transformOf);
+  void bake(const LocalMesh& mesh, std::uint32_t material, const std::string& label, LocalMesh* consumed,
+            TransformOf transformOf);
   void reserveIndices(const LocalMesh& mesh);
   void addTriangle(const Triangle& triangle);
 

@@ -14,11 +14,16 @@ namespace whittle {
 namespace {
 
 /// Some triangle answers to light and, at least in places, gives off none: without a light it would be black
-/// there.
+/// there. Beside what glows, what has no colour does not count: a light would add highlights at most.
 bool somethingIsDark(const Scene& scene) {
-  return std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const Triangle& t) {
-    const Material& m = scene.materials[t.material];
-    return isLit(m) && (!emits(m) || m.emissionTexture.used());
+  const auto any = [&](const auto& asked) {
+    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                       [&](const Triangle& t) { return asked(scene.materials[t.material]); });
+  };
+  const bool glows = any(emits);
+  return any([&](const Material& m) {
+    const bool hasColor = glm::vec3(m.baseColor) != glm::vec3(0.0F);
+    return isLit(m) && (!emits(m) || m.emissionTexture.used()) && (hasColor || !glows);
   });
 }
 

@@ -30,7 +30,9 @@ double countOf(const Document& document, int index) {
 
 /// One copy of a mesh.
 struct MeshSums {
-  double triangles = 0, vertices = 0, bytes = 0, largest = 0, reads = 0;
+  double triangles = 0, vertices = 0, bytes = 0, reads = 0;
+  double largest = 0;  ///< beside the scene, while a part of it is drawn
+  double moved = 0;    ///< less where a part goes as its copy comes
   bool has[std::size(kAttributes)] = {};
 };
 
@@ -68,7 +70,11 @@ MeshSums sumMesh(const Document& document, int mesh) {
     std::size_t targets = 0;
     for (const auto& target : p.targets) targets += target.size();
     sums.reads += corners + 3 * vertices * static_cast<double>(p.attributes.size() + targets);
-    sums.largest = std::max(sums.largest, bytes + passingBytes(document, p, corners, vertices));
+    const double largest = bytes + passingBytes(document, p, corners, vertices);
+    if (largest > sums.largest) {
+      sums.largest = largest;
+      sums.moved = (vertexBytes - 12) * std::min(vertices, corners);
+    }
   }
   return sums;
 }
@@ -87,6 +93,9 @@ GeometrySums sumGeometry(const Document& document, const Hierarchy& hierarchy) {
   std::vector<bool> isShared(meshes.size());
   GeometrySums sums;
   bool has[std::size(kAttributes)] = {};
+  std::vector<int> uses(meshes.size());
+  for (const int index : hierarchy.shown)
+    if (const int mesh = document.nodes[at(index)].mesh; mesh >= 0) ++uses[at(mesh)];
   for (const int index : hierarchy.shown) {
     const Node& node = document.nodes[at(index)];
     if (node.mesh < 0) continue;
@@ -102,7 +111,8 @@ GeometrySums sumGeometry(const Document& document, const Hierarchy& hierarchy) {
     const double copies = copiesOf(document, node);
     sums.triangles += copies * mesh->triangles;
     sums.vertices += copies * mesh->vertices;
-    sums.largestMesh = std::max(sums.largestMesh, mesh->largest + kInstance * copies);
+    const double moved = uses[at(node.mesh)] == 1 && node.skin < 0 ? mesh->moved : 0;
+    sums.largestMesh = std::max(sums.largestMesh, mesh->largest - moved + kInstance * copies);
     for (std::size_t i = 0; i < std::size(kAttributes); ++i) has[i] = has[i] || mesh->has[i];
   }
   double vertexBytes = 12;

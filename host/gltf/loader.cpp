@@ -86,7 +86,10 @@ class MeshLoader {
         continue;
       }
       if (n.skin >= 0) notices_.warn(fmt::format("{} has a skin, but its mesh has no joints", label));
-      for (const glm::dmat4& toWorld : instances) baker_.add(mesh, toWorld, material, label);
+      for (const glm::dmat4& toWorld : instances) {
+        const bool isLast = &mesh == &storage && &toWorld == &instances.back();
+        baker_.add(mesh, toWorld, material, label, isLast ? &storage : nullptr);
+      }
     }
   }
 

@@ -164,6 +164,25 @@ TEST(GltfMaterial, WhatGlowsByATextureIsLitAsWell) {
   EXPECT_EQ(b.load().lights.size(), 3U);
 }
 
+/// A light would add highlights at most, and the radiance of what glows would no longer be what the file
+/// says.
+TEST(GltfMaterial, BlackBesideWhatGlowsNeedsNoLight) {
+  const auto lightsWith = [](const std::vector<Json>& materials) {
+    GltfBuilder b;
+    for (const Json& material : materials)
+      b.node({{"mesh", b.triangleMesh({{"material", b.material(material)}})}});
+    return b.load().lights.size();
+  };
+  const Json black{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}}};
+  const Json veil{{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 0.1}}}}};
+  const Json dim{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0.1, 0, 1}}}}};
+  Json glowing = black;
+  glowing["emissiveFactor"] = {1, 1, 1};
+  EXPECT_EQ(lightsWith({glowing, veil, black}), 0U);
+  EXPECT_EQ(lightsWith({glowing, dim}), 3U);
+  EXPECT_EQ(lightsWith({black}), 3U) << "highlights are all that there is to see";
+}
+
 TEST(GltfMaterial, TexturesThatCannotBeReadLeaveTheFactor) {
   const Json material{
       {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"baseColorFactor", {0.5, 1, 1, 1}}}}};

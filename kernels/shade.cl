@@ -256,7 +256,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
   Natural found = (Natural)(0);
   Real3 radiance = same3((float3)(0.0f));
 #if HAS(COVERAGE)
-  const Mask clear = !a.hit & comeFromEye(rays, first + i, capacity, bounce) & ((Natural)(own.backgroundClear) == 1u);
+  const Mask clear = comeFromEye(rays, first + i, capacity, bounce) & ((Natural)(own.backgroundClear) == 1u) & !a.hit;
   STORE(clear ? (Real)(1.0f) : (Real)(0.0f), entryRadiance + (size_t)RADIANCE_TRANSMITTANCE * capacity + i);
 #endif
 #if HAS(BACKGROUND)

@@ -59,6 +59,9 @@ int runCompare(const CompareOptions& o) {
     note(
         "one picture is linear, the other tone-mapped and cut off at white: their difference "
         "holds that too");
+  if (a.hadAlpha || b.hadAlpha)
+    note(fmt::format("alpha is left out: colours are compared as they stand in the files{}",
+                     a.hadAlpha != b.hadAlpha ? ", and only one of these has an alpha" : ""));
   const ImageMetrics m = compareImages(a, b, shownAs(o.a), shownAs(o.b));
   const auto pixels = static_cast<std::uint64_t>(a.width) * static_cast<std::uint64_t>(a.height);
   if (m.nonFinite + m.nonFiniteReference > 0)
@@ -92,7 +95,7 @@ void addCompare(CLI::App& app, int& status) {
   c->option_defaults()->group("Output");
   c->add_flag("--json", o->json, "as JSON; a number that is not finite is null");
   c->footer(
-      "Of a file with layers R, G and B count, or those of its only layer.\n"
+      "Of a file with layers R, G and B count, or those of its only layer; no alpha.\n"
       "FLIP is at 67 pixels a degree: of .png and .jpg by their own codes, of radiance\n"
       "after the tone map.\n"
       "Status 1 if the pictures have different sizes or numbers of colour channels.\n"

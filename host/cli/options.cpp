@@ -53,6 +53,8 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
       "would be dark]");
   c.add_flag_callback(
       "--no-default-lights", [&o] { o.defaultLights = false; }, "or never");
+  c.add_flag("--default-background,!--no-default-background", o.defaultBackground,
+             "and put the studio's surroundings there, for smooth surfaces to mirror [on]");
   c.add_flag(
       "--confine", o.confined,
       "refuse a file that reads buffers or images outside its own folder; otherwise a note says so [off]");
@@ -68,10 +70,10 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
                               word, formatBytes(*bytes)));
             o.memory = MemoryLimit{*bytes, true};
           },
-          {"SIZE", "refuse what would take more memory than this, before it is taken: 500M, 4G, 2GiB",
-           "four fifths of what is free; for a file 4 GB and 256 times its size"});
-  c.add_flag("--default-background,!--no-default-background", o.defaultBackground,
-             "and put the studio's surroundings there, for smooth surfaces to mirror [on]");
+          {"SIZE",
+           "refuse what would take more memory than this, before it is taken: 500M, 4G, 2GiB; what compiling "
+           "kernels takes the first time is not counted",
+           "four fifths of what is free, and for the file at most 4 GB and 256 bytes for each of its own"});
 }
 
 void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
@@ -103,10 +105,12 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
            "surfaces that a ray may pass straight on, besides its bounces: blended or clear ones");
   addChoice(c, "--back-faces", s.backFaces,
             "backs of single-sided surfaces that light does not pass; shadow rays meet them in any case");
-  c.add_flag("--alpha", s.alpha,
-             "give .png and .exr an alpha channel: the background is left out where it is seen straight on, "
-             "and shows "
-             "in mirrors and refracted only [off]");
+  c.add_flag(
+      "--alpha", s.alpha,
+      "give .png (colours not multiplied by it), .exr (multiplied) and --aov all an alpha channel: the "
+      "background "
+      "is left out where it is seen straight on, and out of what --exposure auto looks at; mirrors and solid "
+      "glass still show it [off]");
   c.add_flag("--clip-far", s.clipFar,
              "show nothing beyond the camera's zfar; many tools write one that means nothing [off]");
   addText(
@@ -196,7 +200,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
                    MemoryBudget::Cause::CommandLine);
   };
   const bool hasSize = given(options.width) == given(options.height);
-  budget.promise(costs.programBytes, "the program and its drivers", MemoryBudget::Cause::CommandLine);
+  budget.promiseProgram(costs.programBytes);
   if (hasSize) holdPicture();
   LoadOptions load;
   load.memory = &budget;

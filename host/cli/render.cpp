@@ -197,6 +197,11 @@ int runRender(RenderOptions& o) {
   OutputCheck check = checkOutputs(o);
   o.settings.aovs = !o.aovs.empty();
   const FloatImage reference = readReference(o);
+  if (!o.reference.empty() && reference.hadAlpha != o.settings.alpha)
+    warn(fmt::format(
+        "--reference: {} has {} alpha channel, but the picture has {}: where the background shows, "
+        "their difference is no error",
+        o.reference.string(), reference.hadAlpha ? "an" : "no", o.settings.alpha ? "one" : "none"));
   std::unique_ptr<Trace> trace;
   if (!o.trace.empty()) trace = std::make_unique<Trace>();
   warnIfAny(settleKernelCache());

@@ -21,6 +21,7 @@ struct FloatImage {
   int height = 0;
   int channels = 3;
   std::vector<float> pixels;  ///< width·height·channels
+  bool hadAlpha = false;      ///< in the file that it was read from
 };
 
 /// The channels of several images of one size side by side, in one.

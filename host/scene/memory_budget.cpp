@@ -42,8 +42,10 @@ void MemoryBudget::check(std::uint64_t before, std::uint64_t bytes, std::string_
   const auto shown = [&](std::uint64_t b) {
     return looksAlike ? fmt::format("{} bytes", b) : formatBytes(b);
   };
-  throw InputError(fmt::format("{} would take {}, {} with all else; the limit is {}{}: {} allows more", what,
-                               formatBytes(bytes), shown(total), shown(limit), whose,
+  const std::string asked =
+      before == 0 ? shown(total) : fmt::format("{}, {} with all else", formatBytes(bytes), shown(total));
+  throw InputError(fmt::format("{} would take {}; the limit is {}{}: {} allows more", what, asked,
+                               shown(limit), whose,
                                limit_.isChosen                            ? "a larger --memory-limit"
                                : limit_.isUlimit && limit == limit_.bytes ? "a larger ulimit -v or -d"
                                                                           : "--memory-limit SIZE"));
@@ -68,6 +70,12 @@ void MemoryBudget::hold(std::uint64_t bytes, std::string_view what) {
   check(sum(held_, promised_), bytes, what, Cause::File);
   held_ += bytes;
   peak_ = std::max(peak_, held_);
+}
+
+void MemoryBudget::promiseProgram(std::uint64_t bytes) {
+  check(0, sum(sum(held_, promised_), bytes), "the program with its drivers", Cause::CommandLine);
+  promised_ += bytes;
+  commandLine_ += bytes;
 }
 
 void MemoryBudget::promise(std::uint64_t bytes, std::string_view what, Cause cause) {

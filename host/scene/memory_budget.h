@@ -31,6 +31,8 @@ class MemoryBudget {
   void hold(std::uint64_t bytes, std::string_view what);
   /// The same for what is taken and given back before anything else is held.
   void pass(std::uint64_t bytes, std::string_view what);
+  /// Of this process, whatever it is given: `bytes` beside kProgramBytes.
+  void promiseProgram(std::uint64_t bytes);
   /// The same for what will be taken once everything is loaded, beside all that is held then.
   void promise(std::uint64_t bytes, std::string_view what, Cause cause = Cause::File);
   /// Throws InputError where a file without --memory-limit asks for that many values to be read, again and

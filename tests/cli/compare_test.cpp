@@ -7,6 +7,22 @@
 namespace whittle::test {
 namespace {
 
+/// Pictures that differ in alpha alone are the same to compare, so it says what it leaves out.
+TEST(CompareCodes, SaysThatAlphaIsLeftOut) {
+  const Folder folder;
+  writeCodes(folder / "half.png", {1, 1, 4, {9, 9, 9, 128}}, {});
+  writeCodes(folder / "full.png", {1, 1, 4, {9, 9, 9, 255}}, {});
+  writeCodes(folder / "none.png", {1, 1, 3, {9, 9, 9}}, {});
+  const auto said = [&](const char* a, const char* b) {
+    const Outcome run = runWhittle({"compare", a, b, "--json"}, {folder.path(), {}});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_NE(said("half.png", "full.png").find("alpha is left out"), std::string::npos);
+  EXPECT_NE(said("half.png", "none.png").find("only one of these has an alpha"), std::string::npos);
+  EXPECT_EQ(said("none.png", "none.png"), "");
+}
+
 using Json = nlohmann::json;
 
 void writeFlat(const std::filesystem::path& file, std::uint8_t code) {

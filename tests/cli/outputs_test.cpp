@@ -97,6 +97,22 @@ TEST(Outputs, AlphaIsAFourthChannel) {
   }
 }
 
+/// Against a reference with the background in it the error would be that of the background.
+TEST(Outputs, AlphaMustBeThatOfTheReference) {
+  const Folder folder;
+  ASSERT_EQ(runWhittle(smallRender({"-o", "whole.exr"}), {folder.path(), {}}).status, 0);
+  ASSERT_EQ(runWhittle(smallRender({"-o", "cut.exr", "--alpha"}), {folder.path(), {}}).status, 0);
+  const auto said = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"-o", "a.exr", "--quiet"});
+    return runWhittle(smallRender(more), {folder.path(), {}}).err;
+  };
+  EXPECT_NE(said({"--reference", "whole.exr", "--alpha"}).find("no alpha channel"), std::string::npos);
+  EXPECT_NE(said({"--reference", "cut.exr"}).find("has an alpha channel"), std::string::npos);
+  EXPECT_EQ(said({"--reference", "cut.exr", "--alpha"}), "");
+  EXPECT_EQ(said({"--reference", "whole.exr"}), "");
+  EXPECT_EQ(said({"--alpha"}), "");
+}
+
 TEST(Outputs, AlphaHasNoPlaceInAJpeg) {
   const Folder folder;
   const Outcome run = runWhittle(smallRender({"-o", "a.png", "-o", "b.jpg", "--alpha"}), {folder.path(), {}});

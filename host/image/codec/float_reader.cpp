@@ -25,7 +25,7 @@ FloatImage readChannels(OIIO::ImageInput& input, const PictureChannels& chosen, 
   const OIIO::ImageSpec& spec = input.spec();
   checkSize(spec, kMaxFloatSide, name);
   const auto count = static_cast<int>(chosen.channels.size());
-  FloatImage image{spec.width, spec.height, count, {}};
+  FloatImage image{spec.width, spec.height, count, {}, chosen.hasAlpha};
   image.pixels.resize(static_cast<std::size_t>(spec.width) * spec.height * count);
   const auto read = [&](int firstChannel, int channels, float* to) {
     const auto pixelBytes = static_cast<OIIO::stride_t>(sizeof(float) * count);
@@ -53,7 +53,7 @@ FloatImage inDisplayWindow(FloatImage data, const OIIO::ImageSpec& spec, const s
   if (spec.full_width < 1 || spec.full_height < 1) refuseToDecode(name, "its display window is empty");
   checkSize(spec.full_width, spec.full_height, kMaxFloatSide, name);
   const auto channels = static_cast<std::size_t>(data.channels);
-  FloatImage shown{spec.full_width, spec.full_height, data.channels, {}};
+  FloatImage shown{spec.full_width, spec.full_height, data.channels, {}, data.hadAlpha};
   shown.pixels.resize(static_cast<std::size_t>(shown.width) * shown.height * channels);
   const std::int64_t dx = std::int64_t{spec.x} - spec.full_x, dy = std::int64_t{spec.y} - spec.full_y;
   const std::int64_t left = std::max<std::int64_t>(0, dx), top = std::max<std::int64_t>(0, dy);

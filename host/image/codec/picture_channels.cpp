@@ -118,12 +118,10 @@ std::optional<PictureChannels> onlyChannel(const std::vector<Layer>& layers) {
                                all > kShown ? fmt::format(" and {} more", all - kShown) : ""));
 }
 
-}  // namespace
-
-PictureChannels choosePicture(const std::vector<FilePart>& parts, const std::string& file) {
+PictureChannels choose(const std::vector<Layer>& layers, const std::vector<FilePart>& parts,
+                       const std::string& file) {
   using Triple = std::array<const char*, 3>;
   using Single = std::array<const char*, 1>;
-  const std::vector<Layer> layers = layersOf(parts);
   if (auto rgb = chooseLayer(layers, file, "R, G and B", {Triple{"r", "g", "b"}, {"red", "green", "blue"}}))
     return *rgb;
   std::vector<Layer> scalars = layers;  // the Y of a vector is no grey
@@ -132,6 +130,17 @@ PictureChannels choosePicture(const std::vector<FilePart>& parts, const std::str
   if (auto vector = chooseLayer(layers, file, "X, Y and Z", {Triple{"x", "y", "z"}})) return *vector;
   if (auto only = onlyChannel(layers)) return *only;
   refuseChannels(parts, file);
+}
+
+}  // namespace
+
+PictureChannels choosePicture(const std::vector<FilePart>& parts, const std::string& file) {
+  const std::vector<Layer> layers = layersOf(parts);
+  PictureChannels chosen = choose(layers, parts, file);
+  chosen.hasAlpha = std::any_of(layers.begin(), layers.end(), [&](const Layer& layer) {
+    return layer.part == chosen.part && (layer.find("a") >= 0 || layer.find("alpha") >= 0);
+  });
+  return chosen;
 }
 
 }  // namespace whittle

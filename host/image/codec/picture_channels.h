@@ -17,6 +17,7 @@ struct FilePart {
 struct PictureChannels {
   int part = 0;
   std::vector<int> channels;  ///< of FilePart::channels
+  bool hasAlpha = false;      ///< beside them, in any layer of the part
 };
 
 /// Red, green and blue of the unnamed layer, else of the only layer that has them; else the grey channel Y in

@@ -10,6 +10,7 @@
 #include "scene/input_error.h"
 
 namespace whittle::cli {
+
 AovOutput parseAov(const std::string& text, const std::vector<std::string>& names) {
   const auto equals = text.find('=');
   const std::string name = text.substr(0, equals);

@@ -57,12 +57,12 @@ class DeviceBytes {
   const RenderPlan& plan_;
 };
 
-/// What upload holds on this side beside the tree, at its most.
-std::uint64_t uploadBytes(const RenderPlan& plan, std::uint64_t tree) {
+/// What the upload of the geometry holds beside the scene, at its most; of `tree`, which it takes, the order
+/// stays.
+std::uint64_t uploadBytes(const RenderPlan& plan, std::uint64_t tree, std::uint64_t order) {
   const DeviceBytes device(plan);
   const std::uint64_t wide = device.named("bvh8Nodes"), leaves = device.named("leaves");
-  const std::uint64_t planned = 44 * plan.treeNodes,
-                      order = sizeof(std::uint32_t) * device.named("leaves") / 36;
+  const std::uint64_t planned = 44 * plan.treeNodes;
   const std::uint64_t made = device.named("nodes") + leaves + wide + device.named("triangles");
   if (wide == 0) return tree + device.named("nodes") + made;
   return std::max({tree + planned + wide, tree + 2 * wide, order + wide + made});
@@ -82,10 +82,10 @@ std::uint64_t peakBytes(const Scene& scene, const RenderPlan& plan, std::uint64_
   const DeviceBytes device(plan);
   const std::uint64_t triangles = scene.triangles.size(), pixels = pixelsOf(plan.settings);
   const std::uint64_t channels = plan.settings.alpha ? 4 : 3;
-  const std::uint64_t tree =
-      sizeof(TreeNode) * plan.treeNodes + sizeof(std::uint32_t) * (plan.treeNodes > 0 ? triangles : 0);
+  const std::uint64_t order = plan.treeNodes > 0 ? sizeof(std::uint32_t) * triangles : 0;
+  const std::uint64_t tree = sizeof(TreeNode) * plan.treeNodes + order;
   const std::uint64_t build = tree + (plan.treeNodes > 0 ? (sizeof(PrimRef) + 12) * triangles : 0);
-  const std::uint64_t upload = uploadBytes(plan, tree);
+  const std::uint64_t upload = uploadBytes(plan, tree, order);
   // Attributes and images leave this side when they have come to the other.
   const std::uint64_t attributes =
       bytesOf(scene.normals) + bytesOf(scene.tangents) + bytesOf(scene.uv0) + bytesOf(scene.uv1);

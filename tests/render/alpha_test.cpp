@@ -21,15 +21,6 @@ Scene sheetsOf(const Material& material, int count) {
   return scene;
 }
 
-Material veil(float alpha) {
-  Material m = lambert(glm::vec3(0));
-  m.unlit = true;
-  m.alphaMode = AlphaMode::Blend;
-  m.baseColor.a = alpha;
-  m.doubleSided = true;
-  return m;
-}
-
 Settings withAlpha(int bounces) {
   Settings settings = smallSettings(bounces);
   settings.width = settings.height = 8;

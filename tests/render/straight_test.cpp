@@ -11,16 +11,6 @@
 namespace whittle::test {
 namespace {
 
-/// Absorbs the share `alpha` and gives off nothing.
-Material veil(float alpha) {
-  Material m = lambert(glm::vec3(0));
-  m.unlit = true;
-  m.alphaMode = AlphaMode::Blend;
-  m.baseColor.a = alpha;
-  m.doubleSided = true;
-  return m;
-}
-
 /// A wall of radiance 1 at y = 0 and `count` veils above it, from `height` upwards `apart` from each other.
 Scene veils(int count, float alpha, float height, float apart) {
   Scene scene;

@@ -17,6 +17,16 @@ inline void aim(Camera& camera, const glm::dvec3& forward) {
   camera.up = glm::cross(right, f);
 }
 
+/// Absorbs the share `alpha` and gives off nothing.
+inline Material veil(float alpha) {
+  Material m = lambert(glm::vec3(0));
+  m.unlit = true;
+  m.alphaMode = AlphaMode::Blend;
+  m.baseColor.a = alpha;
+  m.doubleSided = true;
+  return m;
+}
+
 /// A picture of one pixel whose only ray starts at `origin` along `direction`.
 inline RenderResult shoot(Scene scene, const glm::dvec3& origin, const glm::dvec3& direction, int bounces) {
   Camera camera;

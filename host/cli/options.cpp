@@ -113,13 +113,13 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
       "glass still show it [off]");
   c.add_flag("--clip-far", s.clipFar,
              "show nothing beyond the camera's zfar; many tools write one that means nothing [off]");
-  addText(
+  o.ambient = addText(
       c, "--ambient",
       [&s](const std::string& word) { s.ambient = parseRealOrAuto("--ambient", word, 0, kLargestAmbient); },
       {"auto|X",
        "Whitted's ambient term: radiance in W/(m² sr) that surfaces receive from all sides, unshadowed; "
        "auto: a tenth of the scene's light",
-       "0"});
+       "0; auto with the studio's lights"});
   addReal(c, "--cutoff", s.cutoff, 0, kLargestCutoff, "T",
           "trace no mirror or glass ray whose share of the picture (throughput) is at most this in every "
           "colour; --stats says what that and the limits of depth can cost (biasBound beside meanRadiance)",
@@ -218,9 +218,12 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))
     notices.note("something lies beyond the camera's zfar; --clip-far leaves it out");
   applyBackground(scene, options.background, settings, budget, notices);
-  if (!settings.ambient) {
+  // A studio's walls send some of its light back.
+  const bool isStudio = scene.hasStudioLights && options.ambient && !given(options.ambient);
+  if (isStudio || !settings.ambient) {
     settings.ambient = automaticAmbient(scene);
-    notices.note(fmt::format("--ambient auto: {} W/(m² sr)", *settings.ambient));
+    notices.note(fmt::format("--ambient auto{}: {} W/(m² sr)", isStudio ? ", with the studio's lights" : "",
+                             *settings.ambient));
   }
   nowDoing("");
   for (const auto& text : notices.warnings) warn(text);

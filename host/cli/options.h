@@ -26,7 +26,8 @@ struct SceneOptions {
   bool quiet = false;
   std::optional<MemoryLimit> memory;  ///< unset: what the machine has
   ViewpointOptions view;
-  CLI::Option *width = nullptr, *height = nullptr;  ///< null where the command draws no picture
+  /// Null where the command draws no picture.
+  CLI::Option *width = nullptr, *height = nullptr, *ambient = nullptr;
 };
 
 void addSceneOptions(CLI::App& command, SceneOptions& options);

@@ -52,6 +52,7 @@ void addDefaults(Scene& scene, Notices& notices, const LoadOptions& options) {
   const bool background = options.defaultBackground && (isWanted || lights);
   if (!lights && !background) return;
   const Camera& eye = scene.cameras[findCamera(scene, options.camera)];
+  scene.hasStudioLights = lights;
   if (lights) scene.lights = studioLights(eye);
   if (background) scene.background = studioBackground(eye);
   notices.note(fmt::format("no light in the file: a small studio was added, {}{}{} ({} it out)",

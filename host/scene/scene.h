@@ -187,7 +187,8 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Image> images;
   std::vector<Light> lights;
-  std::vector<Camera> cameras;  ///< never empty after loading
+  bool hasStudioLights = false;  ///< they are ours, since the file has none
+  std::vector<Camera> cameras;   ///< never empty after loading
   Background background;
   /// Where the scene's coordinates begin, in those of the file, metres: 0 but for scenes far from there,
   /// which single precision would shake. Whoever shows coordinates adds it.

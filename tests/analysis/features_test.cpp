@@ -38,14 +38,15 @@ class ProgramBuilds {
  public:
   ProgramBuilds() : compute_(openTestDevice()) {}
 
-  /// What the compiler said of the programs that are new.
-  std::string log(std::uint64_t bits) {
+  /// What the compiler said of the programs that are new; not optimised, they take half the time.
+  std::string log(std::uint64_t bits, const char* options = kNotOptimised) {
     const SceneFeatures features = SceneFeatures::ofBits(bits);
     std::string said;
     for (const KernelProgram& program :
          kernelPrograms(features, plannedStages({features, 2, 16}), testKernelFolder())) {
       if (!built_.emplace(program.name, program.features).second) continue;
-      compute_.build(program.source, fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x}", program.features));
+      compute_.build(program.source,
+                     fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x}{}", program.features, options));
       said += compute_.buildLog();
     }
     return said;
@@ -185,8 +186,8 @@ TEST(Features, ThoseThatASceneDoesNotNeedChangeNothing) {
 
 TEST(Features, EachAloneAndAllTogetherCompileWithoutAWarning) {
   ProgramBuilds builds;
-  EXPECT_EQ(builds.log(0), "");
-  EXPECT_EQ(builds.log(~std::uint64_t{0} >> 1), "");
+  EXPECT_EQ(builds.log(0, ""), "");  // the optimiser warns as well
+  EXPECT_EQ(builds.log(~std::uint64_t{0} >> 1, ""), "");
 #define WHITTLE_BUILD(name, bit, text) EXPECT_EQ(builds.log(std::uint64_t{1} << (bit)), "") << (text);
   WHITTLE_FEATURES(WHITTLE_BUILD)
 #undef WHITTLE_BUILD

@@ -11,7 +11,7 @@ namespace {
 
 std::string failureOf(Compute& compute, const std::string& source, const std::string& options) {
   try {
-    compute.build(source, options);
+    compute.build(source, options + test::kNotOptimised);
   } catch (const std::exception& e) {
     return e.what();
   }

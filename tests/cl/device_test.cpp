@@ -8,6 +8,7 @@
 
 #include "cl/error.h"
 #include "support/temporary_sources.h"
+#include "support/text.h"
 
 namespace whittle {
 namespace {
@@ -40,9 +41,7 @@ std::string refusal(const DeviceList& list, const std::string& selector) {
   }
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 TEST(SelectDevice, ByIndexNameKindOrNothing) {
   const DeviceList list = someDevices();

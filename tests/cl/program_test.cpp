@@ -10,13 +10,12 @@
 #include "scene/byte_counts.h"
 #include "support/temporary_sources.h"
 #include "support/test_device.h"
+#include "support/text.h"
 
 namespace whittle {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 template <typename Action>
 std::string clErrorOf(Action action) {

@@ -13,7 +13,7 @@ using test::Json;
 using test::mentions;
 
 /// A triangle with coordinates, material 0 and texture 0 with sampler 0.
-GltfBuilder textured(const Json& material) {
+GltfBuilder withSampler(const Json& material) {
   GltfBuilder b;
   const std::string png = test::pngBytes();
   b.push("images", {{"bufferView", b.view(std::vector<char>(png.begin(), png.end()))}});
@@ -40,7 +40,7 @@ TEST(GltfFlaws, UnknownSamplerCodesMeanTheDefaults) {
   for (const char* key : {"wrapS", "wrapT", "magFilter", "minFilter"}) {
     for (const Json& code : {Json(33069), Json(0), Json(-1), Json(1.5), Json("REPEAT")}) {
       SCOPED_TRACE(std::string(key) + " " + code.dump());
-      GltfBuilder b = textured(withTexture());
+      GltfBuilder b = withSampler(withTexture());
       b.json["samplers"][0] = {{key, code}};
       const TextureSlot slot =
           loadWarned(b, std::string("samplers[0].") + key).materials.at(0).baseColorTexture;
@@ -53,7 +53,7 @@ TEST(GltfFlaws, UnknownSamplerCodesMeanTheDefaults) {
 }
 
 TEST(GltfFlaws, OneWarningForAFlawThatIsEverywhere) {
-  GltfBuilder b = textured(withTexture());
+  GltfBuilder b = withSampler(withTexture());
   b.json["samplers"][0] = {{"wrapS", 33069}, {"wrapT", 33071}};
   for (int i = 0; i < 3; ++i) b.push("samplers", {{"wrapS", 33069}});
   const Scene scene = loadWarned(
@@ -63,7 +63,7 @@ TEST(GltfFlaws, OneWarningForAFlawThatIsEverywhere) {
 
 TEST(GltfFlaws, ColoursOfAnotherLength) {
   const auto material = [](const Json& json, const char* warning) {
-    GltfBuilder b = textured(json);
+    GltfBuilder b = withSampler(json);
     return loadWarned(b, warning).materials.at(0);
   };
   const auto baseColor = [&](const Json& value, const char* warning) {
@@ -88,7 +88,7 @@ TEST(GltfFlaws, ColoursOfAnotherLength) {
   EXPECT_EQ(m.specular, 0.5F) << "the rest of the extension counts";
 
   const Json offset{{"KHR_texture_transform", {{"offset", {0.5, 0.25, 0}}, {"scale", {2}}}}};
-  GltfBuilder b = textured({{"emissiveTexture", {{"index", 0}, {"extensions", offset}}}});
+  GltfBuilder b = withSampler({{"emissiveTexture", {{"index", 0}, {"extensions", offset}}}});
   const TextureSlot slot = b.load().materials.at(0).emissionTexture;
   EXPECT_EQ(slot.transform, (std::array<float, 6>{1, 0, 0.5F, 0, 1, 0.25F}));
   EXPECT_EQ(b.notices.warnings.size(), 2U);
@@ -96,7 +96,7 @@ TEST(GltfFlaws, ColoursOfAnotherLength) {
 
 TEST(GltfFlaws, ColoursOfLights) {
   const auto intensity = [](const Json& color) {
-    GltfBuilder b = textured(Json::object());
+    GltfBuilder b = withSampler(Json::object());
     b.json["extensions"]["KHR_lights_punctual"]["lights"] =
         Json::array({{{"type", "point"}, {"intensity", 2}, {"color", color}}});
     b.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
@@ -107,11 +107,11 @@ TEST(GltfFlaws, ColoursOfLights) {
 }
 
 TEST(GltfFlaws, FactorsOfAnotherType) {
-  GltfBuilder b = textured({{"doubleSided", 1},
-                            {"alphaCutoff", "half"},
-                            {"name", 5},
-                            {"pbrMetallicRoughness", {{"metallicFactor", "0"}, {"roughnessFactor", 0.5}}},
-                            {"extensions", {{"KHR_materials_ior", Json::array()}}}});
+  GltfBuilder b = withSampler({{"doubleSided", 1},
+                               {"alphaCutoff", "half"},
+                               {"name", 5},
+                               {"pbrMetallicRoughness", {{"metallicFactor", "0"}, {"roughnessFactor", 0.5}}},
+                               {"extensions", {{"KHR_materials_ior", Json::array()}}}});
   const Material m = b.load().materials.at(0);
   EXPECT_FALSE(m.doubleSided);
   EXPECT_EQ(m.alphaCutoff, 0.5F);
@@ -123,7 +123,7 @@ TEST(GltfFlaws, FactorsOfAnotherType) {
 
 TEST(GltfFlaws, MinusOneMeansNone) {
   const auto loadWith = [](const char* place, const char* warning) {
-    GltfBuilder b = textured({{"normalTexture", {{"index", 0}}}, {"emissiveFactor", {1, 0, 0}}});
+    GltfBuilder b = withSampler({{"normalTexture", {{"index", 0}}}, {"emissiveFactor", {1, 0, 0}}});
     b.node({{"mesh", 0}});
     b.json[Json::json_pointer(place)] = -1;
     return loadWarned(b, warning);
@@ -145,7 +145,7 @@ TEST(GltfFlaws, MinusOneMeansNone) {
 
 TEST(GltfFlaws, StructureIsStrict) {
   const auto errorWith = [](const char* place, const Json& value) {
-    GltfBuilder b = textured(withTexture());
+    GltfBuilder b = withSampler(withTexture());
     b.node({{"mesh", 0}});
     b.json[Json::json_pointer(place)] = value;
     return b.error();

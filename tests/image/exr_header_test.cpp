@@ -36,7 +36,7 @@ std::string file(bool several, const std::string& parts) {
   return integer(20000630) + integer(several ? 0x1002 : 2) + parts;
 }
 
-std::string errorOf(const std::string& bytes) {
+std::string headerErrorOf(const std::string& bytes) {
   try {
     checkSampleTypes(std::as_bytes(std::span(bytes)), "a.exr");
   } catch (const InputError& e) {
@@ -46,26 +46,26 @@ std::string errorOf(const std::string& bytes) {
 }
 
 TEST(ExrHeader, TypesThatAreDefinedPass) {
-  EXPECT_EQ(errorOf(file(false, part({0, 1, 2}))), "");
-  EXPECT_EQ(errorOf(file(true, part({1}) + part({2, 2}) + zeroEnded(""))), "");
+  EXPECT_EQ(headerErrorOf(file(false, part({0, 1, 2}))), "");
+  EXPECT_EQ(headerErrorOf(file(true, part({1}) + part({2, 2}) + zeroEnded(""))), "");
 }
 
 TEST(ExrHeader, OthersAreRefusedInAnyChannelOfAnyPart) {
   const std::string says = "a.exr: channel B has samples of type 3, which OpenEXR does not define";
-  EXPECT_EQ(errorOf(file(false, part({1, 3}))), says);
-  EXPECT_EQ(errorOf(file(true, part({1}) + part({2, 3}) + zeroEnded(""))), says);
+  EXPECT_EQ(headerErrorOf(file(false, part({1, 3}))), says);
+  EXPECT_EQ(headerErrorOf(file(true, part({1}) + part({2, 3}) + zeroEnded(""))), says);
 }
 
 TEST(ExrHeader, WhatLiesBehindTheHeadersIsNotLookedAt) {
-  EXPECT_EQ(errorOf(file(false, part({1}) + part({7}))), "") << "one part: the second is data";
-  EXPECT_EQ(errorOf(file(true, part({1}) + zeroEnded("") + part({7}))), "");
-  EXPECT_EQ(errorOf("no picture" + part({7})), "");
+  EXPECT_EQ(headerErrorOf(file(false, part({1}) + part({7}))), "") << "one part: the second is data";
+  EXPECT_EQ(headerErrorOf(file(true, part({1}) + zeroEnded("") + part({7}))), "");
+  EXPECT_EQ(headerErrorOf("no picture" + part({7})), "");
 }
 
 TEST(ExrHeader, AnyCutIsLeftToTheCodec) {
   const std::string whole = file(true, part({1, 2}) + part({0}) + zeroEnded(""));
   for (std::size_t size = 0; size < whole.size(); ++size)
-    EXPECT_EQ(errorOf(whole.substr(0, size)), "") << size;
+    EXPECT_EQ(headerErrorOf(whole.substr(0, size)), "") << size;
 }
 
 }  // namespace

@@ -179,10 +179,10 @@ TEST(Window, WidePicturesOfThreeChannelsToo) {
   EXPECT_EQ(readFloatImage(file).pixels, (std::vector<float>{4, 5, 6, 7, 8, 9}));
 }
 
-using Bytes = std::vector<char>;
+using Chunks = std::vector<char>;
 
 /// A grey PNG with the codes 0, 128 and 255 and these chunks behind its header.
-FloatImage pngWith(const TemporaryFolder& folder, const Bytes& chunks) {
+FloatImage pngWith(const TemporaryFolder& folder, const Chunks& chunks) {
   const std::string file = (folder / "a.png").string();
   const std::vector<std::uint8_t> codes{0, 128, 255};
   auto out = OIIO::ImageOutput::create(file);
@@ -198,20 +198,20 @@ FloatImage pngWith(const TemporaryFolder& folder, const Bytes& chunks) {
 }
 
 // Checksums by zlib's crc32.
-const Bytes kLinear{0, 0, 0, 4, 'g', 'A', 'M', 'A', 0, 1, '\x86', '\xa0', '\x31', '\xe8', '\x96', '\x5f'};
-const Bytes kSquare{0, 0, 0, 4, 'g', 'A', 'M', 'A', 0, 0, '\xc3', 'P', 0, '\x99', '\xb5', 52};
-const Bytes kUsual{0, 0, 0, 4, 'g', 'A', 'M', 'A', 0, 0, '\xb1', '\x8f', 11, '\xfc', 'a', 5};
-const Bytes kSrgb{0, 0, 0, 1, 's', 'R', 'G', 'B', 0, '\xae', '\xce', 28, '\xe9'};
+const Chunks kLinear{0, 0, 0, 4, 'g', 'A', 'M', 'A', 0, 1, '\x86', '\xa0', '\x31', '\xe8', '\x96', '\x5f'};
+const Chunks kSquare{0, 0, 0, 4, 'g', 'A', 'M', 'A', 0, 0, '\xc3', 'P', 0, '\x99', '\xb5', 52};
+const Chunks kUsual{0, 0, 0, 4, 'g', 'A', 'M', 'A', 0, 0, '\xb1', '\x8f', 11, '\xfc', 'a', 5};
+const Chunks kSrgb{0, 0, 0, 1, 's', 'R', 'G', 'B', 0, '\xae', '\xce', 28, '\xe9'};
 
 TEST(Png, SamplesAreLightAsItsChunksSay) {
   const TemporaryFolder folder;
   const double code = 128 / 255.0, srgb = std::pow((code + 0.055) / 1.055, 2.4);
-  Bytes linearButSrgb = kLinear, damaged = kLinear;
+  Chunks linearButSrgb = kLinear, damaged = kLinear;
   linearButSrgb.insert(linearButSrgb.end(), kSrgb.begin(), kSrgb.end());
   damaged.back() ^= 1;
-  const std::vector<std::pair<Bytes, double>> cases{{{}, srgb},     {kLinear, code}, {kSquare, code * code},
-                                                    {kUsual, srgb}, {kSrgb, srgb},   {linearButSrgb, srgb},
-                                                    {damaged, srgb}};
+  const std::vector<std::pair<Chunks, double>> cases{{{}, srgb},     {kLinear, code}, {kSquare, code * code},
+                                                     {kUsual, srgb}, {kSrgb, srgb},   {linearButSrgb, srgb},
+                                                     {damaged, srgb}};
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const FloatImage image = pngWith(folder, cases[i].first);
     ASSERT_EQ(image.channels, 1);

@@ -21,7 +21,7 @@ std::string header(const std::string& resolution, const std::string& more = "") 
 /// A flat pixel of red v·2⁻⁷ (exponent 129 is 2¹; mantissas are in 256ths), v < 256.
 std::string redPixel(int v) { return {static_cast<char>(v), 0, 0, static_cast<char>(129)}; }
 
-std::string errorOf(const std::string& file) {
+std::string readingErrorOf(const std::string& file) {
   try {
     decodeRadiance(bytesOf(file), "sky.hdr");
   } catch (const InputError& e) {
@@ -128,7 +128,7 @@ TEST(Radiance, RefusesWhatIsBrokenInOneLineWithTheName) {
       {good + std::string{5, 5, 5, 5, 5, 5, 5, 5, 5}, "cut off"},
   };
   for (const Case& c : cases) {
-    const std::string error = errorOf(c.file);
+    const std::string error = readingErrorOf(c.file);
     EXPECT_EQ(error.rfind("sky.hdr: ", 0), 0U) << error;
     EXPECT_NE(error.find(c.says), std::string::npos) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
@@ -143,13 +143,13 @@ TEST(Radiance, SurvivesAnyOneByte) {
     for (int component = 0; component < 4; ++component)
       file += std::string{static_cast<char>(128 + 5), 100, 4, 1, 2, 3, 4};
   }
-  ASSERT_EQ(errorOf(file), "no InputError");
+  ASSERT_EQ(readingErrorOf(file), "no InputError");
   for (std::size_t at = 0; at < file.size(); ++at) {
-    EXPECT_NE(errorOf(file.substr(0, at)), "no InputError") << "cut at " << at;
+    EXPECT_NE(readingErrorOf(file.substr(0, at)), "no InputError") << "cut at " << at;
     for (const int other : {0, 1, 2, 10, 127, 128, 129, 255}) {
       std::string changed = file;
       changed[at] = static_cast<char>(other);
-      errorOf(changed);
+      readingErrorOf(changed);
     }
   }
 }

@@ -70,16 +70,16 @@ TEST(Film, AMillionTimesATenth) {
 
 TEST(Film, SamplesThatAreNotFiniteAreCountedAndLeftOut) {
   FilmBench film;
-  constexpr std::uint32_t kSamples = 4, kCapacity = 64;
-  std::vector<float> samples(RADIANCE_PLANES_COVERAGE * kCapacity,
+  constexpr std::uint32_t kSamples = 4, kEntries = 64;
+  std::vector<float> samples(RADIANCE_PLANES_COVERAGE * kEntries,
                              std::nanf(""));  // beyond the batch: rubbish that must not be read
   for (std::uint32_t slot = 0; slot < kPixels * kSamples; ++slot)
     for (std::uint32_t c = 0; c < RADIANCE_PLANES_COVERAGE; ++c)
-      samples[c * kCapacity + slot] = static_cast<float>(slot + 1 + c);
-  samples[0 * kCapacity + 5] = std::nanf("");
-  samples[1 * kCapacity + 10] = INFINITY;
-  samples[2 * kCapacity + 11] = -INFINITY;
-  film.add({0, kPixels, 0, kSamples}, kCapacity, samples);
+      samples[c * kEntries + slot] = static_cast<float>(slot + 1 + c);
+  samples[0 * kEntries + 5] = std::nanf("");
+  samples[1 * kEntries + 10] = INFINITY;
+  samples[2 * kEntries + 11] = -INFINITY;
+  film.add({0, kPixels, 0, kSamples}, kEntries, samples);
   EXPECT_EQ(film.nonFinite(), 3U);
   const auto sums = film.sums();
   for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
@@ -97,37 +97,37 @@ TEST(Film, SamplesThatAreNotFiniteAreCountedAndLeftOut) {
 /// bits as a serial sum in queue order, added to what the samples had; everything else untouched.
 TEST(Accumulate, SameBitsAsASerialSum) {
   test::KernelBench bench({"accumulate.cl"});
-  constexpr std::uint32_t kCapacity = 3000;
+  constexpr std::uint32_t kEntries = 3000;
   test::Rng rng(51);
   const std::uint32_t lengths[] = {1, 2, 15, 16, 17, 1, 31, 33, 64, 100, 300};
   std::vector<std::uint32_t> slots;
-  for (std::uint32_t run = 0; slots.size() < kCapacity; ++run)
+  for (std::uint32_t run = 0; slots.size() < kEntries; ++run)
     slots.insert(slots.end(), lengths[run % std::size(lengths)],
-                 (run * 7) % kCapacity);  // not in order: any slot may follow
-  slots.resize(kCapacity);
-  constexpr std::size_t kRadiance = std::size_t{RADIANCE_PLANES_COVERAGE} * kCapacity;
-  std::vector<float> rays(RAY_PLANES * kCapacity), radiance(kRadiance), before(kRadiance);
+                 (run * 7) % kEntries);  // not in order: any slot may follow
+  slots.resize(kEntries);
+  constexpr std::size_t kRadiance = std::size_t{RADIANCE_PLANES_COVERAGE} * kEntries;
+  std::vector<float> rays(RAY_PLANES * kEntries), radiance(kRadiance), before(kRadiance);
   for (float& x : rays) x = rng.unit();
   for (float& x : radiance) x = rng.unit() * 10;
   for (float& x : before) x = rng.unit();
-  std::memcpy(rays.data() + RAY_SLOT * kCapacity, slots.data(), kCapacity * sizeof(float));
+  std::memcpy(rays.data() + RAY_SLOT * kEntries, slots.data(), kEntries * sizeof(float));
   for (const auto& [first, count] :
-       {std::pair{0U, kCapacity}, {0U, 1U}, {20U, 1000U}, {3U, 17U}, {700U, 2300U}}) {
+       {std::pair{0U, kEntries}, {0U, 1U}, {20U, 1000U}, {3U, 17U}, {700U, 2300U}}) {
     auto expected = before;
     for (std::uint32_t k = 0; k < count; ++k)
       for (std::uint32_t c = 0; c < 3; ++c)
-        expected[c * kCapacity + slots[first + k]] +=
-            rays[(RAY_THROUGHPUT + c) * kCapacity + first + k] * radiance[c * kCapacity + k];
+        expected[c * kEntries + slots[first + k]] +=
+            rays[(RAY_THROUGHPUT + c) * kEntries + first + k] * radiance[c * kEntries + k];
     for (std::uint32_t k = 0; k < count; ++k) {
-      const float* const throughput = &rays[RAY_THROUGHPUT * kCapacity + first + k];
-      expected[RADIANCE_TRANSMITTANCE * kCapacity + slots[first + k]] +=
-          (throughput[0] + throughput[kCapacity] + throughput[2 * kCapacity]) * (1.0F / 3.0F) *
-          radiance[RADIANCE_TRANSMITTANCE * kCapacity + k];
+      const float* const throughput = &rays[RAY_THROUGHPUT * kEntries + first + k];
+      expected[RADIANCE_TRANSMITTANCE * kEntries + slots[first + k]] +=
+          (throughput[0] + throughput[kEntries] + throughput[2 * kEntries]) * (1.0F / 3.0F) *
+          radiance[RADIANCE_TRANSMITTANCE * kEntries + k];
     }
     const Buffer samples = bench.compute.upload("sampleRadiance", before);
     bench.stages.run(stages::Accumulate{.first = first,
                                         .count = count,
-                                        .capacity = kCapacity,
+                                        .capacity = kEntries,
                                         .rays = bench.compute.upload("rays", rays),
                                         .entryRadiance = bench.compute.upload("entryRadiance", radiance),
                                         .sampleRadiance = samples});

@@ -38,7 +38,7 @@ __kernel void sixteen(uint n, __global const float* v, __global float* out) {
 }
 )";
 
-constexpr const char* kKernels = R"(
+constexpr const char* kMathKernels = R"(
 __kernel void canary(uint n, __global const float* v, __global float* out) {
   FOR_ENTRIES(i, n)
   const Real x = gather(v, 4u * entry), y = gather(v + 1, 4u * entry), z = gather(v + 2, 4u * entry),
@@ -64,7 +64,7 @@ __kernel void spot(uint n, __global const DeviceLight* light, __global const flo
 )";
 
 test::KernelBench makeBench() { return test::KernelBench({"lib/math.cl"}, kWidths); }
-test::LaneBench makeLanes() { return {{"lib/surface/fresnel.cl", "lib/surface/light.cl"}, kKernels}; }
+test::LaneBench makeLanes() { return {{"lib/surface/fresnel.cl", "lib/surface/light.cl"}, kMathKernels}; }
 
 float sized(test::Rng& rng, float decades) {
   return rng.between(1, 2) * std::pow(10.0F, rng.between(-decades, decades)) *

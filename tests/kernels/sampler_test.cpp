@@ -50,7 +50,7 @@ glm::vec2 position(U sampler, U p, U s, U n, U seed) {
           (static_cast<float>(s / m) + random.y) / static_cast<float>(m)};
 }
 
-constexpr const char* kKernels = R"(
+constexpr const char* kSamplerKernels = R"(
 __kernel void positions(uint n, const DeviceCamera camera, __global const uint* v, __global float* out) {
   const uint i = get_global_id(0);
   if (i >= n) return;
@@ -68,7 +68,7 @@ __kernel void words(uint n, __global const uint* v, __global uint* out) {
 )";
 
 TEST(Sampler, EveryBitOfTheTwin) {
-  test::KernelBench bench({"lib/sampler.cl"}, kKernels);
+  test::KernelBench bench({"lib/sampler.cl"}, kSamplerKernels);
   test::Rng rng(31);
   std::vector<U> words{0, 0, 0, 0, ~0U, ~0U, ~0U, ~0U, 1, 0, 0, 0};
   while (words.size() < 4 * 5003) words.push_back(static_cast<U>(rng.bits()));
@@ -110,7 +110,7 @@ TEST(Sampler, EveryBitOfTheTwin) {
 /// What the formulas are for: 16 aligned Sobol samples are a (0,4,2)-net, one in each cell of 16×1, 8×2, 4×4,
 /// 2×8, 1×16.
 TEST(Sampler, AlignedSobolBlocksAreNets) {
-  test::KernelBench bench({"lib/sampler.cl"}, kKernels);
+  test::KernelBench bench({"lib/sampler.cl"}, kSamplerKernels);
   device::DeviceCamera camera{};
   camera.raysPerPixel = 64;
   camera.sampler = 2;

@@ -29,7 +29,7 @@ Barycentrics refined(Natural entry, __global const float* corners, __global cons
 
 /// Out: texture coordinate from the barycentrics as given, and from the refined ones; each as high
 /// and low parts.
-constexpr const char* kKernels = R"(
+constexpr const char* kSurfelKernels = R"(
 __kernel void coordinates(uint n, __global const float* corners, __global const float* uv, __global const float* o,
                           __global const float* d, __global const float* hits, __global float* out) {
   FOR_ENTRIES(i, n)
@@ -96,7 +96,7 @@ Hits grazingHits(test::Rng& rng, int count) {
 /// A texel of 1024 is 1e-3 of a repeat. What single precision gives is off by whole percents of one here;
 /// what the refined hit gives must be off by less than a ten-thousandth, so that no picture shows it.
 TEST(Surfel, TextureCoordinatesOfGrazingHitsAreExact) {
-  test::LaneBench bench({"lib/surface/surfel.cl"}, std::string(kLanes) + kKernels);
+  test::LaneBench bench({"lib/surface/surfel.cl"}, std::string(kLanes) + kSurfelKernels);
   test::Rng rng(61);
   const Hits hits = grazingHits(rng, 5000);
   const auto n = static_cast<std::uint32_t>(hits.expected.size());

@@ -14,7 +14,7 @@ namespace {
 
 /// `textures` holds the same one twice: every second work item looks it up under one number, the others under
 /// both, which lanes read in another way. `turns`: entries look up two textures in turns.
-constexpr const char* kKernels = R"(
+constexpr const char* kTextureKernels = R"(
 Rgba lookup(__global const DeviceTexture* textures, __global const uint* texels, __global const float* linearFromSrgb,
             __global const float* coordinates, Natural entry, Natural chosen, int srgb) {
   SceneView scene;
@@ -84,7 +84,7 @@ glm::dvec4 twin(const Picture& p, double u, double v, const device::DeviceTextur
 
 class TextureBench {
  public:
-  TextureBench() : bench({"lib/surface/texture.cl"}, kKernels) {
+  TextureBench() : bench({"lib/surface/texture.cl"}, kTextureKernels) {
     for (int i = 0; i < 256; ++i)
       table_.push_back(static_cast<float>(linear(static_cast<std::uint8_t>(i), true)));
   }

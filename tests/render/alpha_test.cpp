@@ -22,7 +22,7 @@ Scene sheetsOf(const Material& material, int count) {
 }
 
 Settings withAlpha(int bounces) {
-  Settings settings = smallSettings(bounces);
+  Settings settings = wholeSettings(bounces);
   settings.width = settings.height = 8;
   settings.alpha = true;
   return settings;
@@ -79,7 +79,7 @@ TEST(Alpha, LaidOverTheBackgroundItIsTheWholePicture) {
     Scene scene = ownScene(name);
     scene.background = {};
     scene.background.radiance = glm::vec3(1);
-    Settings settings = smallSettings(4);
+    Settings settings = wholeSettings(4);
     settings.raysPerPixel = 3;
     const RenderResult whole = renderOnDevice(scene, settings);
     settings.alpha = true;
@@ -115,16 +115,13 @@ TEST(Alpha, AgreesWithTheReference) {
 }
 
 TEST(Alpha, IsNotCompiledUnlessAskedFor) {
-  const auto uses = [](const Stats& stats) {
-    return std::find(stats.featuresUsed.begin(), stats.featuresUsed.end(), "alpha channel") !=
-           stats.featuresUsed.end();
-  };
   const Scene scene = sheetsOf(veil(0.5F), 1);
   Settings settings = withAlpha(2);
-  EXPECT_TRUE(uses(renderOnDevice(scene, settings).stats));
+  settings.keepAllFeatures = false;
+  EXPECT_TRUE(uses(renderOnDevice(scene, settings).stats, "alpha channel"));
   settings.alpha = false;
   settings.keepAllFeatures = true;
-  EXPECT_FALSE(uses(renderOnDevice(scene, settings).stats))
+  EXPECT_FALSE(uses(renderOnDevice(scene, settings).stats, "alpha channel"))
       << "a setting decides, as --keep-all-features leaves it";
   settings.keepAllFeatures = false;
   const std::vector<float> plain = renderOnDevice(scene, settings).radiance.pixels;

@@ -57,17 +57,17 @@ TEST(Background, ATurnedMapAgreesWithTheReference) {
   for (const double degrees : {0.0, 30.0, -137.5, 180.0, 1000.0}) {
     Scene scene = mirrorUnderASky();
     scene.background.rotation = degrees;
-    expectAgreement(compareWithReference(scene, smallSettings(3)), fmt::format("turned by {}", degrees), 2);
+    expectAgreement(compareWithReference(scene, wholeSettings(3)), fmt::format("turned by {}", degrees), 2);
   }
 }
 
 TEST(Background, WholeTurnsKeepEveryBit) {
   Scene scene = mirrorUnderASky();
-  const RenderResult base = renderOnDevice(scene, smallSettings(3));
+  const RenderResult base = renderOnDevice(scene, wholeSettings(3));
   scene.background.rotation = -720;
-  EXPECT_EQ(differingPixels(base.radiance, renderOnDevice(scene, smallSettings(3)).radiance), 0U);
+  EXPECT_EQ(differingPixels(base.radiance, renderOnDevice(scene, wholeSettings(3)).radiance), 0U);
   scene.background.rotation = 1;
-  EXPECT_GT(differingPixels(base.radiance, renderOnDevice(scene, smallSettings(3)).radiance), 0U);
+  EXPECT_GT(differingPixels(base.radiance, renderOnDevice(scene, wholeSettings(3)).radiance), 0U);
 }
 
 }  // namespace

@@ -54,10 +54,6 @@ double bias(const RenderResult& a, const RenderResult& b) {
 /// Pictures without a cut-off, as far as rounding goes.
 constexpr double kRounding = 1e-7;
 
-bool uses(const Stats& stats, const std::string& feature) {
-  return std::find(stats.featuresUsed.begin(), stats.featuresUsed.end(), feature) != stats.featuresUsed.end();
-}
-
 TEST(Cutoff, OfNothingCompilesNothingAndChangesNoBit) {
   const Scene scene = ownScene("nested_glass");
   const auto cutSettings = [](float cutoff) {

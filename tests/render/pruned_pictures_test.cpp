@@ -69,12 +69,6 @@ std::uint64_t bytesOf(const Stats& stats, const std::string& buffer) {
   return 0;
 }
 
-bool uses(const Stats& stats, const std::string& feature) {
-  for (const auto& text : stats.featuresUsed)
-    if (text.find(feature) != std::string::npos) return true;
-  return false;
-}
-
 TEST(PrunedPictures, UnusedVertices) {
   Scene scene = room();
   scene.materials[0].baseColorTexture = reading(0);

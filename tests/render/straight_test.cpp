@@ -171,7 +171,7 @@ Scene showcase() {
 
 TEST(StraightOn, AgreesWithTheReference) {
   for (const int bounces : {1, 3, 8}) {
-    const Agreement agreement = compareWithReference(showcase(), smallSettings(bounces));
+    const Agreement agreement = compareWithReference(showcase(), wholeSettings(bounces));
     expectAgreement(agreement, fmt::format("panes, {} bounces", bounces), 12);
   }
 }
@@ -287,7 +287,7 @@ TEST(CameraPlanes, CutWhatLiesBeforeAndOnDemandBeyond) {
     EXPECT_EQ(middle(0.5F, 4, true, form), glm::vec3(1, 0, 0));
   }
   for (const bool clipFar : {false, true}) {
-    Settings settings = smallSettings();
+    Settings settings = wholeSettings();
     settings.clipFar = clipFar;
     expectAgreement(compareWithReference(walls(1.5F, 4.5F), settings), "planes", 8);
   }

@@ -1,17 +1,16 @@
 // Cases 23, 25 and lights of our own: almost on a plane, faint and fierce ones.
 #include <cmath>
+#include <numbers>
 
 #include "forms.h"
 
 namespace whittle::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// ρ I h / (π (h² + x²)^(3/2)), Lambert's plane under a point light.
 double lambertPlane(double rho, double intensity, double h, double x) {
   const double d2 = h * h + x * x;
-  return rho * intensity * h / (kPi * d2 * std::sqrt(d2));
+  return rho * intensity * h / (std::numbers::pi * d2 * std::sqrt(d2));
 }
 
 /// A floor of half side 32 m under a light at height h; pixel i at x = i step.

@@ -1,12 +1,12 @@
 // Cases 8 and 9, and surfaces of our own: gaps, coplanar faces, grazing shadows, needles, a scene moved away.
 #include <cmath>
+#include <numbers>
 
 #include "forms.h"
 
 namespace whittle::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kGaps = 24;
 
 /// Pairs of parallel squares, 2^-k·`widest` apart about y = 0, at z = `away`; pixel k looks at the lower one
@@ -71,7 +71,7 @@ double unmoved(int x, int y) {
   const bool above = std::abs(px) < 1 && std::abs(pz) < 1;
   if (!above && std::abs(px) < 2 && std::abs(pz) < 2) return 0;
   const double h = above ? 4 : 8, d2 = px * px + pz * pz + h * h;
-  return static_cast<double>(0.5F) / kPi * 100 * h / (d2 * std::sqrt(d2));
+  return static_cast<double>(0.5F) / std::numbers::pi * 100 * h / (d2 * std::sqrt(d2));
 }
 
 TEST(CaseSurfaces, MovingTheSceneAddsNoAcneAndErrorsGrowSmoothly) {
@@ -107,7 +107,7 @@ TEST(CaseSurfaces, CoplanarFacesDoNotShadowEachOther) {
     Light sun;
     sun.kind = LightKind::Directional;
     sun.direction = {0, -1, 0};
-    sun.intensity = glm::vec3(static_cast<float>(kPi));
+    sun.intensity = glm::vec3(static_cast<float>(std::numbers::pi));
     scene.lights = {sun};
     scene.cameras = {lookingDown()};
     scene.cameras[0].position = {0, 9, 0};
@@ -138,7 +138,7 @@ TEST(CaseSurfaces, GrazingShadowRaysOnBallsOfAnySize) {
     Light sun;
     sun.kind = LightKind::Directional;
     sun.direction = glm::normalize(glm::vec3(-1, -0.003F, -0.01F));
-    sun.intensity = glm::vec3(static_cast<float>(kPi));
+    sun.intensity = glm::vec3(static_cast<float>(std::numbers::pi));
     scene.lights = {sun};
     Camera camera = rayCamera(glm::dvec3(0, 0, 4.0 * static_cast<double>(radius)), {0, 0, -1});
     camera.orthographic = true;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -11,6 +12,7 @@
 #include "programs/kernel_programs.h"
 #include "render/renderer.h"
 #include "support/test_device.h"
+#include "support/text.h"
 
 namespace whittle::test {
 
@@ -75,6 +77,12 @@ inline std::size_t differingPixels(const FloatImage& a, const FloatImage& b) {
     count += std::memcmp(&a.pixels[i], &b.pixels[i], channels * sizeof(float)) != 0;
   }
   return count;
+}
+
+/// Whether a feature with these words in its text was needed.
+inline bool uses(const Stats& stats, const std::string& words) {
+  return std::any_of(stats.featuresUsed.begin(), stats.featuresUsed.end(),
+                     [&](const std::string& text) { return contains(text, words); });
 }
 
 /// Launches and items of a stage; zeros if it never ran.

@@ -26,4 +26,7 @@ inline std::optional<std::filesystem::path> testKernelFolder() {
   return folder ? std::optional<std::filesystem::path>(folder) : std::nullopt;
 }
 
+/// Build option for programs that only have to compile.
+inline constexpr const char* kNotOptimised = " -cl-opt-disable";
+
 }  // namespace whittle::test

@@ -2,8 +2,9 @@
 
 usage: readme_test.py commands WHITTLE | links
 `commands` runs in a temporary folder with small pictures: `./run.sh` becomes the built program WHITTLE, scene.glb one of
-our scenes, sky.hdr a grey sky. `./test.sh` is not run: it is what runs this.
+our scenes, sky.hdr a grey sky. The window opens on an X server without a screen, where there is one (Xvfb). `./test.sh` is not run: it is what runs this.
 """
+import os
 import pathlib
 import re
 import shlex
@@ -16,7 +17,8 @@ import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SMALL = {"render": ["--width", "64", "--height", "36"], "reference": ["--width", "64", "--height", "36"],
-         "bench": ["--rays", "4096", "--runs", "1"]}
+         "bench": ["--rays", "4096", "--runs", "1"],
+         "view": ["--width", "64", "--height", "36", "--script", "script"]}
 FENCED = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"`([^`\n]+)`")
 
@@ -41,6 +43,17 @@ class Commands(unittest.TestCase):
         # Radiance HDR, four pixels of 0.5: too narrow for run lengths.
         sky = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n" + bytes([128, 128, 128, 128]) * 4
         (self.folder / "sky.hdr").write_bytes(sky)
+        (self.folder / "script").write_text("wait picture\nquit\n")
+
+    def display(self):
+        """A display of an X server that ends with the test."""
+        if not shutil.which("Xvfb"):
+            self.skipTest("no Xvfb for the window")
+        server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1280x720x24", "-nolisten", "tcp"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.terminate)
+        return ":" + server.stdout.readline().strip()
 
     def test_front_page(self):
         commands = commandsOf(ROOT / "README.md")
@@ -62,7 +75,11 @@ class Commands(unittest.TestCase):
             said = 'render "$root/scenes/cornell_box.glb" -o cornell_box.png'
             self.assertIn(said, (ROOT / program).read_text())
             arguments = ["render", str(ROOT / "scenes/cornell_box.glb"), "-o", "cornell_box.png"]
+        environment = dict(os.environ)
+        if arguments[0] == "view":
+            environment["DISPLAY"] = self.display()
         done = subprocess.run([self.whittle, *arguments, *SMALL.get(arguments[0], [])], cwd=self.folder, text=True,
+                              env=environment,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
         self.assertEqual(done.returncode, 0, done.stdout)
         for option, value in zip(arguments, arguments[1:]):

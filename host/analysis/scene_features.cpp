@@ -32,6 +32,8 @@ class Needs {
   const Settings& settings;
   const DeviceTraits& traits;
   const bool nearPlane;  ///< something lies before it; asked once, of every triangle
+  /// Impulses are compiled whatever the scene needs: a feature that is kept needs them.
+  bool keepsImpulses = false;
 
   bool anyMaterial(const std::function<bool(const Material&)>& wanted) const {
     return std::any_of(pruned.materials.begin(), pruned.materials.end(), wanted);
@@ -70,11 +72,14 @@ class Needs {
     return scene.cameras.empty() ? nullptr : &scene.cameras[findCamera(scene, settings.camera)];
   }
   bool impulses() const { return bounces() || straight() || nearPlane; }
+  /// Where there are impulses, all that says where they go has to be there, even for one bounce: a volume
+  /// whose refraction were left out would let them straight on.
+  bool directsImpulses() const { return impulses() || keepsImpulses; }
   bool shadows() const {
     return settings.shadows && lit() && anyLight([](const Light& l) { return l.castsShadows; });
   }
   bool twoImpulses() const {
-    return impulses() && settings.impulses == ImpulseMode::All && anyMaterial(canSendTwoImpulses);
+    return directsImpulses() && settings.impulses == ImpulseMode::All && anyMaterial(canSendTwoImpulses);
   }
   const Image& imageOf(const TextureSlot& slot) const {
     return scene.images[pruned.images[static_cast<std::size_t>(slot.image)]];
@@ -160,7 +165,7 @@ std::vector<Question> lightQuestions(const Needs& n) {
 
 std::vector<Question> impulseQuestions(const Needs& n) {
   using F = Feature;
-  const bool some = n.bounces();
+  const bool some = n.directsImpulses();
   const char* const none = n.settings.bounces <= 1 ? "one bounce sends out no impulses"
                                                    : "no material is smooth, transmits or blends";
   return {
@@ -213,21 +218,39 @@ std::vector<Question> cameraQuestions(const Needs& n) {
   };
 }
 
-}  // namespace
-
-SceneFeatures SceneFeatures::analyse(const Scene& scene, const PrunedScene& pruned, const Settings& settings,
-                                     const DeviceTraits& traits) {
-  const Needs needs(scene, pruned, settings, traits);
+std::vector<Question> allQuestions(const Needs& needs) {
   std::vector<Question> questions;
   for (auto part : {geometryQuestions(needs), textureQuestions(needs), lightTypeQuestions(needs),
                     lightQuestions(needs), impulseQuestions(needs), cameraQuestions(needs)})
     questions.insert(questions.end(), part.begin(), part.end());
+  return questions;
+}
 
-  SceneFeatures features;
+/// Bits of what the scene needs, or of all but what the settings decide.
+std::uint64_t askedFor(const std::vector<Question>& questions, const Settings& settings) {
+  std::uint64_t bits = 0;
   for (const auto& q : questions)
-    if (q.used || (settings.keepAllFeatures && !q.settingDecides)) features.bits_ |= bitOf(q.feature);
-  const ForcedFeatures forced = forcedFeatures(settings, features.bits_);
-  features.bits_ |= forced.bits;
+    if (q.used || (settings.keepAllFeatures && !q.settingDecides)) bits |= bitOf(q.feature);
+  return bits;
+}
+
+}  // namespace
+
+SceneFeatures SceneFeatures::analyse(const Scene& scene, const PrunedScene& pruned, const Settings& settings,
+                                     const DeviceTraits& traits) {
+  Needs needs(scene, pruned, settings, traits);
+  const std::vector<Question> questions = allQuestions(needs);
+  const std::uint64_t asked = askedFor(questions, settings);
+  ForcedFeatures forced = forcedFeatures(settings, asked);
+  if (forced.bits & bitOf(Feature::IMPULSES)) {
+    needs.keepsImpulses = true;
+    const std::uint64_t directing = askedFor(allQuestions(needs), settings) & ~asked & ~forced.bits;
+    for (const auto& q : questions)
+      if (directing & bitOf(q.feature)) forced.neededBy.emplace(q.feature, Feature::IMPULSES);
+    forced.bits |= directing;
+  }
+  SceneFeatures features;
+  features.bits_ = asked | forced.bits;
   for (const auto& q : questions) {
     const bool used = features.bits_ & bitOf(q.feature);
     const auto neededBy = forced.neededBy.find(q.feature);

@@ -85,6 +85,7 @@ void addCommands(CLI::App& app, int& status) {
   addDevices(app, status);
   addCompare(app, status);
   addBench(app, status);
+  addView(app, status);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
     command->option_defaults()->group("Other");
     command->set_help_flag("-h,--help", "show this help");

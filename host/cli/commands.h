@@ -13,5 +13,6 @@ void addInfo(CLI::App& app, int& status);
 void addDevices(CLI::App& app, int& status);
 void addCompare(CLI::App& app, int& status);
 void addBench(CLI::App& app, int& status);
+void addView(CLI::App& app, int& status);
 
 }  // namespace whittle::cli

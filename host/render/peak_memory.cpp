@@ -1,5 +1,5 @@
-// See peak_memory.h. The phases are those of render/renderer.cpp and wavefront/device_scene.cpp, in their
-// order.
+// See peak_memory.h. The phases are those of render/render_session.cpp and wavefront/device_scene.cpp, in
+// their order.
 #include "render/peak_memory.h"
 
 #include <algorithm>

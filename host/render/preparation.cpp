@@ -100,16 +100,11 @@ TriTree buildTree(const Scene& scene, const Decisions& decisions) {
   return tree;
 }
 
-namespace {
-
-/// Never more than the picture has samples (twice, for branching), never fewer than two long runs.
 std::uint32_t queueCapacity(const Settings& s) {
   const std::uint64_t samples = static_cast<std::uint64_t>(s.width) * s.height * s.raysPerPixel;
   const std::uint64_t wanted = std::min<std::uint64_t>(static_cast<std::uint64_t>(s.wavefront), 2 * samples);
   return static_cast<std::uint32_t>((std::max(wanted, std::uint64_t{2} * LONG_RUN) + 63) / 64 * 64);
 }
-
-}  // namespace
 
 SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
                            const Decisions& decisions, TriTree tree, Scene* consumed) {

@@ -42,7 +42,14 @@ struct RenderHooks {
   std::function<void(const RenderProgress&)> progress;  ///< now and then, may be empty
   std::function<void(const std::string&)> phase;        ///< "compiling kernels", … may be empty
   std::function<void(const std::string&)> note;         ///< what the user should know meanwhile; may be empty
-  std::optional<std::filesystem::path> kernelFolder;    ///< kernels from here instead of the binary
+  /// Asked between launches; false: the render ends, and the result holds what there is. May be empty.
+  std::function<bool()> keepGoing;
+  /// Gets the picture so far after each pass; passes then double the samples. May be empty.
+  std::function<void(RenderResult)> shown;
+  /// Looks from here in the place of Settings::camera, which says what is compiled: a camera that is
+  /// orthographic, or has a near plane that cuts, needs those features kept. Null: the scene's.
+  const Camera* camera = nullptr;
+  std::optional<std::filesystem::path> kernelFolder;  ///< kernels from here instead of the binary
   /// Of the picture's size: each look at the film says how far it is from this.
   const FloatImage* reference = nullptr;
   /// The `whittle` binary, to compile kernels with a second process (compilerProcessMain); empty: this one

@@ -45,10 +45,11 @@ SamplingLoop::SamplingLoop(Compute& compute, Wavefront& wavefront, const Setting
       counts_(buffers.pixels) {}
 
 bool SamplingLoop::looks() const {
-  return settings_.timeLimit > 0.0 || hasErrorTarget(settings_) || settings_.adaptive || hooks_.reference;
+  return settings_.timeLimit > 0.0 || hasErrorTarget(settings_) || settings_.adaptive || hooks_.reference ||
+         hooks_.shown;
 }
 
-void SamplingLoop::run() {
+void SamplingLoop::run(const std::function<void()>& passDone) {
   start_ = Clock::now();
   bool stopped = false;
   for (auto passes = nextPasses(); !passes.empty(); passes = nextPasses()) {
@@ -59,6 +60,7 @@ void SamplingLoop::run() {
     }
     if (passes.size() == 1) passSamples_ = passes.front().samples, passSeconds_ = elapsed() - began;
     if (looks()) look();
+    if (!stopped) passDone();
     if (stopped || (!error_.empty() && meetsTarget(settings_, error_.back()))) break;
   }
   clTry("waiting for the last kernels", [&] { compute_.queue().finish(); });
@@ -136,11 +138,12 @@ bool SamplingLoop::traceWith(const SamplePass& pass, const TracePass& launches) 
 
 double SamplingLoop::endedPerSample() const {
   if (counts_.least() != counts_.most()) return endedShare_;
-  return endedInAll(wavefront_.tally()) / static_cast<double>(counts_.total());
+  return counts_.total() == 0 ? 0.0 : endedInAll(wavefront_.tally()) / static_cast<double>(counts_.total());
 }
 
 bool SamplingLoop::keepGoing(double samplesOfPass, bool betweenBatches) {
   reportProgress(static_cast<double>(counts_.total()) + samplesOfPass);
+  if (hooks_.keepGoing && !hooks_.keepGoing()) return false;
   const double limit = settings_.timeLimit, now = elapsed();
   if (limit <= 0.0 || now <= limit) return true;
   if (counts_.least() > 0)

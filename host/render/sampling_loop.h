@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <vector>
 
 #include "cl/program.h"
@@ -30,10 +31,11 @@ class SamplingLoop {
 
   /// Renders. Each pixel gets its first sample whatever the time limit; after that nothing goes on for longer
   /// than a tenth of it, or a quarter of a second.
-  void run();
+  /// `passDone`: called after each pass.
+  void run(const std::function<void()>& passDone);
 
   const SampleCounts& counts() const { return counts_; }
-  double seconds() const { return seconds_; }  ///< that run took
+  double seconds() const { return seconds_ > 0.0 ? seconds_ : elapsed(); }  ///< that run took, or has so far
   const std::vector<ErrorPoint>& error() const { return error_; }
   /// The picture, after run.
   FloatImage picture();

@@ -287,7 +287,8 @@ void DeviceScene::report(std::vector<BufferStats>& out) const {
 }
 
 DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, TriTree tree,
-                        const SceneFeatures& features, Scene* consumed) {
+                        const SceneFeatures& sceneFeatures, Scene* consumed) {
+  const auto features = SceneFeatures::ofBits(sceneFeatures.bits() & kSceneBufferFeatures);
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
   if (features.has(Feature::TREE) && !features.has(Feature::PACKETS))

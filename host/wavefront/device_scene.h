@@ -28,6 +28,12 @@ struct DeviceScene {
   void report(std::vector<BufferStats>& out) const;
 };
 
+/// The features that decide what is uploaded.
+inline constexpr std::uint64_t kSceneBufferFeatures =
+    bitOf(Feature::TREE) | bitOf(Feature::PACKETS) | bitOf(Feature::VERTEX_NORMALS) |
+    bitOf(Feature::TEXTURES) | bitOf(Feature::VERTEX_COLORS) | bitOf(Feature::NORMAL_TEXTURE) |
+    bitOf(Feature::UV0) | bitOf(Feature::UV1) | bitOf(Feature::BACKGROUND_MAP);
+
 /// Uploads of `pruned` what `features` needs. Throws ClError naming the buffer that does not fit. The
 /// tree's nodes are let go where a wider tree takes their place.
 /// `consumed`: null, or the scene itself, whose owner reads no more of its normals, tangents, texture

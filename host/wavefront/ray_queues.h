@@ -18,6 +18,12 @@ struct Segment {
   std::uint32_t count() const { return end - begin; }
 };
 
+/// The features that decide on the queues' buffers.
+inline constexpr std::uint64_t kQueueFeatures =
+    bitOf(Feature::TEXTURES) | bitOf(Feature::ABSORPTION) | bitOf(Feature::AOVS) | bitOf(Feature::FAR_PLANE) |
+    bitOf(Feature::STRAIGHT) | bitOf(Feature::IMPULSES) | bitOf(Feature::BOTH_BRANCHES) |
+    bitOf(Feature::COVERAGE) | bitOf(Feature::SHADOWS);
+
 class RayQueues {
  public:
   /// Allocates what the features need for `capacity` entries; ray queues themselves come on demand.

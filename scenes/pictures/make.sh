@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Renders every picture of this folder from the scenes in the folder above.
+# Makes every picture of this folder from the scenes in the folder above.
 # Usage: scenes/pictures/make.sh [WHITTLE], default build/release/whittle.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -15,3 +15,11 @@ for bounces in 1 2 7; do render "mirror_box_$bounces" mirror_box --bounces "$bou
 for scene in spot_cone emission shadow mirror refraction textured nested_glass; do render "$scene" "$scene"; done
 render anti_aliasing_1 anti_aliasing --rays-per-pixel 1
 render anti_aliasing_64 anti_aliasing --rays-per-pixel 64
+# The window, on an X server without a screen.
+exec {ready}< <(exec Xvfb -displayfd 1 -screen 0 1280x720x24 -nolisten tcp 2>/dev/null)
+server=$!
+read -r -u "$ready" display
+DISPLAY=:$display "$whittle" view "$here/../textured.glb" --script <(
+  printf '%s\n' 'wait refined' 'wait 0.2' "screenshot $here/window.png" quit)
+kill "$server"
+echo window.png

@@ -197,6 +197,29 @@ TEST(StraightOn, HasTheSameBitsHoweverItIsTraced) {
   expectSame(s, "small wavefronts");
 }
 
+/// One bounce ends at a volume that bends, also where a leaf beside it lets rays straight on. (The features
+/// of impulses were once left out for one bounce: the volume let them straight on as well.)
+TEST(StraightOn, LeavesTheBendingOfVolumesAlone) {
+  for (const int bounces : {1, 2}) {
+    Scene scene = ownScene("nested_glass");
+    Material leaf = veil(0.3F);
+    const Camera& eye = scene.cameras[0];
+    addQuad(scene, addMaterial(scene, leaf),
+            eye.position + 0.5F * eye.forward - 2.0F * eye.right - 0.1F * eye.up, 4.0F * eye.right,
+            0.1F * eye.up);
+    Settings settings = smallSettings(bounces);
+    expectAgreement(compareWithReference(scene, settings), fmt::format("leaf and glass, {} bounces", bounces),
+                    4);
+    // The same of a feature that is kept and goes straight on.
+    const Scene glassAlone = ownScene("nested_glass");
+    const RenderResult plain = renderOnDevice(glassAlone, settings);
+    settings.keepFeatures = bitOf(Feature::NEAR_PLANE);
+    const RenderResult kept = renderOnDevice(glassAlone, settings);
+    EXPECT_EQ(differingPixels(plain.radiance, kept.radiance), 0U) << bounces;
+    EXPECT_EQ(plain.stats.rays.total(), kept.stats.rays.total()) << bounces;
+  }
+}
+
 /// Each pane makes two rays of one; without a limit thirty of them would make millions.
 TEST(StraightOn, AStackOfPanesStaysBounded) {
   Scene scene;

@@ -24,7 +24,8 @@ struct Agreement {
   std::uint64_t looseImpulse = 0, looseShadow = 0;  ///< rays that come or go when rays and lights are moved
 };
 
-/// Renders both ways. settings.aovs is switched on.
+/// Renders both ways. What each pixel hits is asked of the whole kernels, whose bits must be those of the
+/// kernels that the settings ask for.
 Agreement compareWithReference(const Scene& scene, Settings settings);
 
 /// What is asked of every scene: the same hits but for one pixel, at most `outliers` on edges, each

@@ -1,5 +1,5 @@
-// A render, phase by phase: each takes what those before it returned.
-#include "render/renderer.h"
+// A render, phase by phase: each takes what those before it returned, or what an earlier render left.
+#include "render/render_session.h"
 
 #include <tbb/global_control.h>
 
@@ -122,18 +122,105 @@ void describeRays(Stats& stats, const Scene& scene, const Settings& settings, Wa
 
 }  // namespace
 
-RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks) {
+struct RenderSession::State {
+  /// What decides on the device that is open.
+  struct DeviceKey {
+    std::string selector;
+    int threads = 0;
+    bool timed = true;
+    bool operator==(const DeviceKey&) const = default;
+  };
+
+  /// What decides on the scene's buffers, besides the scene.
+  struct SceneKey {
+    std::uint64_t features = 0;
+    bool keepsAll = false;
+    float mirrorRoughness = 0.0F;
+    bool operator==(const SceneKey&) const = default;
+  };
+
+  struct QueueKey {
+    std::uint64_t features = 0;
+    std::uint32_t capacity = 0, compactChunk = 0;
+    bool operator==(const QueueKey&) const = default;
+  };
+
+  struct PictureKey {
+    int width = 0, height = 0;
+    std::size_t planes = 0;
+    bool aovs = false, adaptive = false;
+    bool operator==(const PictureKey&) const = default;
+  };
+
+  /// Something on the device, and what decided on it.
+  template <typename Value, typename Key>
+  struct Kept {
+    std::optional<Value> value;
+    Key key;
+
+    bool serves(const Key& wanted) const { return value && key == wanted; }
+    /// The old one is let go before the new one is made.
+    template <typename Make>
+    Value& remake(const Key& wanted, const Make& make) {
+      value.reset();
+      value.emplace(make());
+      key = wanted;
+      return *value;
+    }
+  };
+
+  static PictureKey pictureKeyOf(const Settings& s, const Decisions& decisions) {
+    return {s.width, s.height, filmPlanes(s.raysPerPixel, decisions.features.has(Feature::COVERAGE)),
+            decisions.features.has(Feature::AOVS), s.adaptive};
+  }
+
+  Kept<OpenDevice, DeviceKey> device;
+  Kept<PictureBuffers, PictureKey> picture;
+  Kept<DeviceScene, SceneKey> scene;
+  Kept<RayQueues, QueueKey> queues;
+  RenderWork work;
+
+  /// What lives on the device.
+  void dropBuffers() {
+    picture.value.reset();
+    scene.value.reset();
+    queues.value.reset();
+  }
+};
+
+RenderSession::RenderSession() : state_(std::make_unique<State>()) {}
+RenderSession::~RenderSession() = default;
+RenderSession::RenderSession(RenderSession&&) noexcept = default;
+RenderSession& RenderSession::operator=(RenderSession&&) noexcept = default;
+
+void RenderSession::sceneChanged() { state_->scene.value.reset(); }
+
+void RenderSession::close() {
+  state_->dropBuffers();
+  state_->device.value.reset();
+}
+
+const RenderWork& RenderSession::work() const { return state_->work; }
+
+RenderResult RenderSession::render(const Scene& scene, const Settings& settings, const RenderHooks& hooks) {
+  State& kept = *state_;
+  kept.work = {};
   PhaseLog log(hooks.trace);
   checkSettings(settings);
   findCamera(scene, settings.camera);  // an unknown one is said before a device is opened
 
   say(hooks, kFirstPhase);
-  std::optional<OpenDevice> own;
   const auto opening = Clock::now();
-  if (!hooks.device)
-    own = OpenDevice{openDevice(settings, Compute::Memory::Real,
-                                hooks.timeStages ? Compute::Launches::Timed : Compute::Launches::Untimed)};
-  OpenDevice& device = hooks.device ? *hooks.device : *own;
+  const State::DeviceKey deviceKey{settings.device, settings.threads, hooks.timeStages};
+  if (!hooks.device && !kept.device.serves(deviceKey)) {
+    kept.dropBuffers();
+    kept.work.device = true;
+    kept.device.remake(deviceKey, [&] {
+      return OpenDevice{openDevice(settings, Compute::Memory::Real,
+                                   hooks.timeStages ? Compute::Launches::Timed : Compute::Launches::Untimed)};
+    });
+  }
+  OpenDevice& device = hooks.device ? *hooks.device : *kept.device.value;
   Compute& compute = device.compute;
   log.end("open the device", opening);
   std::optional<tbb::global_control> threads;
@@ -143,59 +230,97 @@ RenderResult render(const Scene& scene, const Settings& settings, const RenderHo
 
   say(hooks, "compiling kernels");
   const auto compiling = Clock::now();
+  const std::size_t programsBefore = device.programs.size();
   auto compiled = std::async(std::launch::async,
                              [&] { return compileKernels(device, settings, decisions, hooks, compiling); });
   const auto allocating = Clock::now();
-  const PictureBuffers picture = allocatePicture(compute, settings, decisions, Compute::Memory::Real);
+  const State::PictureKey pictureKey = State::pictureKeyOf(settings, decisions);
+  kept.work.picture = !kept.picture.serves(pictureKey);
+  if (kept.work.picture)
+    kept.picture.remake(pictureKey,
+                        [&] { return allocatePicture(compute, settings, decisions, Compute::Memory::Real); });
+  else
+    compute.fillZero(kept.picture.value->film);
+  const PictureBuffers& picture = *kept.picture.value;
   const double pictureSeconds = PhaseLog::secondsSince(allocating);
-  SceneBuffers memory = [&] {
-    TriTree tree = log.time("build tree", [&] { return buildTree(scene, decisions); });
-    return log.time("upload", [&] {
-      return allocateScene(compute, scene, settings, decisions, std::move(tree), hooks.consumed);
+  const State::SceneKey sceneKey{decisions.features.bits() & kSceneBufferFeatures, settings.keepAllFeatures,
+                                 settings.mirrorRoughness};
+  kept.work.scene = !kept.scene.serves(sceneKey);
+  if (kept.work.scene)
+    kept.scene.remake(sceneKey, [&] {
+      TriTree tree = log.time("build tree", [&] { return buildTree(scene, decisions); });
+      return log.time("upload", [&] {
+        return uploadScene(compute, scene, decisions.pruned, std::move(tree), decisions.features,
+                           hooks.consumed);
+      });
     });
-  }();
+  const State::QueueKey queueKey{decisions.features.bits() & kQueueFeatures, queueCapacity(settings),
+                                 decisions.compactChunk};
+  kept.work.queues = !kept.queues.serves(queueKey);
+  if (kept.work.queues)
+    kept.queues.remake(queueKey, [&] {
+      return log.time("allocate queues", [&] {
+        return RayQueues(compute, decisions.features, queueKey.capacity, decisions.compactChunk);
+      });
+    });
   const auto [programs, compileSeconds] = compiled.get();
   log.add("compile kernels", compiling, compileSeconds);
+  kept.work.programs = static_cast<int>(device.programs.size() - programsBefore);
 
   say(hooks, kLastPhase);
   const auto rendering = Clock::now();
   StageRunner stages(compute, programs, decisions.workGroup,
                      {decisions.features.has(Feature::PACKETS), decisions.compactChunk},
-                     memory.queues.entryBytes());
+                     kept.queues.value->entryBytes());
   stages.record(hooks.trace);
+  const Camera& camera = hooks.camera ? *hooks.camera : scene.cameras[decisions.camera];
   const WavefrontSetup setup{decisions.features,
-                             memory.scene,
-                             cameraToDevice(scene.cameras[decisions.camera], settings),
-                             constantsToDevice(scene, scene.cameras[decisions.camera], settings),
+                             *kept.scene.value,
+                             cameraToDevice(camera, settings),
+                             constantsToDevice(scene, camera, settings),
                              static_cast<std::uint32_t>(settings.bounces),
                              static_cast<std::uint32_t>(mostHits(decisions.features, settings)),
                              decisions.compactChunk};
-  Wavefront wavefront(compute, stages, memory.queues, setup, picture.film, picture.aovs);
+  Wavefront wavefront(compute, stages, *kept.queues.value, setup, picture.film, picture.aovs);
   SamplingLoop loop(compute, wavefront, settings, hooks,
                     FilmBuffers{static_cast<std::size_t>(settings.width) * settings.height, picture.order,
                                 picture.film, picture.passOrder, picture.passBlocks});
-  loop.run();
+  const auto resultSoFar = [&] {
+    RenderResult result{loop.picture(), {}, readAovs(compute, settings, picture, loop), {}};
+    if (settings.alpha) result.alpha = loop.alpha();
+    Stats& stats = result.stats;
+    describeScene(stats, scene);
+    stats.settings = settingsInEffect(settings, decisions, *kept.queues.value);
+    describeDevice(stats, compute.device(), settings.threads);
+    describeDecisions(stats, decisions);
+    describeRays(stats, scene, settings, wavefront, loop);
+    stats.meanRadiance = meanRadiance(result.radiance);
+    stats.stages = stages.stats();
+    stats.bounces = stages.statsByBounce();
+    kept.scene.value->report(stats.buffers);
+    kept.queues.value->report(stats.buffers);
+    picture.report(stats.buffers);
+    stats.time.compile = compileSeconds;
+    stats.time.build = log.seconds("build tree");
+    stats.time.upload = pictureSeconds + log.seconds("upload") + log.seconds("allocate queues");
+    stats.time.render = loop.seconds();
+    stats.phases = log.phases();
+    return result;
+  };
+  try {
+    loop.run([&] {
+      if (hooks.shown) hooks.shown(resultSoFar());
+    });
+  } catch (...) {
+    kept.queues.value.reset();  // some of them may be with the rays that were under way
+    throw;
+  }
   log.end("render", rendering);
+  return resultSoFar();
+}
 
-  RenderResult result{loop.picture(), {}, readAovs(compute, settings, picture, loop), {}};
-  if (settings.alpha) result.alpha = loop.alpha();
-  Stats& stats = result.stats;
-  describeScene(stats, scene);
-  stats.settings = settingsInEffect(settings, decisions, memory.queues);
-  describeDevice(stats, compute.device(), settings.threads);
-  describeDecisions(stats, decisions);
-  describeRays(stats, scene, settings, wavefront, loop);
-  stats.meanRadiance = meanRadiance(result.radiance);
-  stats.stages = stages.stats();
-  stats.bounces = stages.statsByBounce();
-  memory.report(stats.buffers);
-  picture.report(stats.buffers);
-  stats.time.compile = compileSeconds;
-  stats.time.build = log.seconds("build tree");
-  stats.time.upload = pictureSeconds + log.seconds("upload");
-  stats.time.render = loop.seconds();
-  stats.phases = log.phases();
-  return result;
+RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks) {
+  return RenderSession().render(scene, settings, hooks);
 }
 
 }  // namespace whittle

@@ -1,0 +1,24 @@
+// The options of a render as widgets: each value is text and goes through the option's own check, so that the
+// window takes and refuses what the command line does, in the same words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/settings.h"
+#include "view/view_model.h"
+
+namespace whittle::cli {
+
+/// In the order in which a window shows them. Labels and groups are the window's, tips the options' help.
+/// `standard`: the defaults.
+std::vector<view::Control> settingControls(const Settings& standard);
+
+/// As the command line would have it: "on" and "off", "auto", numbers. Throws std::invalid_argument for an id
+/// that is no control.
+std::string settingText(const Settings& settings, const std::string& id);
+
+/// Throws InputError, with the settings as they were.
+void setSetting(Settings& settings, const std::string& id, const std::string& text);
+
+}  // namespace whittle::cli

@@ -1,0 +1,210 @@
+// whittle view: a scene in a window, with every setting and statistic of a render.
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+#include <mutex>
+#include <sstream>
+
+#include "cl/kernel_cache.h"
+#include "cli/commands.h"
+#include "cli/error_options.h"
+#include "cli/option_kinds.h"
+#include "cli/options.h"
+#include "cli/outputs.h"
+#include "cli/setting_controls.h"
+#include "cli/speech.h"
+#include "image/image_io.h"
+#include "image/tone_map.h"
+#include "render/peak_memory.h"
+#include "view/viewer.h"
+#include "view/window/window_library.h"
+
+namespace whittle::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Rays for each pixel where nobody says: a window has time.
+constexpr int kRaysPerPixel = 64;
+
+struct ViewOptions {
+  SceneOptions scene;
+  Settings settings;
+  fs::path script, kernelFolder;
+  bool isLight = false;
+};
+
+view::Script readScript(const fs::path& file) {
+  std::error_code error;
+  std::ifstream in(file);
+  std::ostringstream text;
+  if (fs::is_directory(file, error) || !in || !(text << in.rdbuf()))
+    throw InputError(fmt::format("--script: {} cannot be read", file.string()));
+  return view::Script(text.str());
+}
+
+/// Beside the program, or where it is installed.
+const view::WindowLibrary& loadWindow() {
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+  std::string problem = "this build has none: install libimgui-dev and libglfw3-dev, and build again";
+  for (const char* place : {".", "..", "../lib/whittle"}) {
+    const fs::path library = folder / place / "libwhittle_window.so";
+    std::error_code error;
+    if (!fs::exists(library, error)) continue;
+    if (void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL))
+      if (const auto entry =
+              reinterpret_cast<decltype(&whittleWindowLibrary)>(dlsym(handle, "whittleWindowLibrary")))
+        return *entry();
+    const char* const said = dlerror();
+    problem = said ? said : "it does not hold what it should";
+    break;
+  }
+  throw std::runtime_error(fmt::format("no window: libwhittle_window.so: {}", problem));
+}
+
+/// What is read, shared by the window's thread and the render's.
+class Sources {
+ public:
+  explicit Sources(const SceneOptions& options) : options_(options) {}
+
+  /// `file`: a scene, an environment, or empty: all as before.
+  Scene load(const fs::path& file, Settings& settings, std::vector<std::string>& notes) {
+    const std::lock_guard lock(mutex_);
+    SceneOptions options = options_;
+    if (isEnvironment(file))
+      options.background = file.string();
+    else if (!file.empty())
+      options.file = file;
+    options.quiet = true;  // the window shows them
+    Notices notices;
+    MemoryBudget budget = budgetOf(options);
+    Scene scene =
+        loadScene(options, {kTriangleBytes, kRuntimeBytes, pictureBytes}, settings, budget, notices);
+    options.quiet = options_.quiet;
+    options_ = options;  // what could not be read is not asked for again
+    notes = notices.warnings;
+    notes.insert(notes.end(), notices.notes.begin(), notices.notes.end());
+    return scene;
+  }
+
+ private:
+  static bool isEnvironment(const fs::path& file) {
+    return file.extension() == ".hdr" || file.extension() == ".exr";
+  }
+  std::mutex mutex_;
+  SceneOptions options_;
+};
+
+std::vector<std::uint8_t> codesOf(const FloatImage& radiance, const Scene& scene, const Settings& settings) {
+  const Look look = lookOf(radiance, scene, settings, {"a.png"}, true);
+  const std::vector<std::uint8_t> rgb = toneMap(radiance, look.stops, nullptr, look.rollsOff);
+  std::vector<std::uint8_t> rgba(rgb.size() / 3 * 4, 255);
+  for (std::size_t i = 0; i < rgb.size() / 3; ++i)
+    for (std::size_t c = 0; c < 3; ++c) rgba[4 * i + c] = rgb[3 * i + c];
+  return rgba;
+}
+
+/// Options of a camera, as `info` and the window print them.
+Camera cameraOf(const Scene& scene, double aspect, const std::string& text) {
+  CLI::App app;
+  ViewpointOptions options;
+  addViewpointOptions(app, options, nullptr);
+  std::istringstream in(text);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.insert(words.begin(), word);  // CLI11 takes the last first
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError&) {
+    throw InputError(fmt::format("'{}' are no options of a camera", text.substr(0, 60)));
+  }
+  const auto viewpoint = chosenViewpoint(options);
+  if (!viewpoint) throw InputError("what was pasted is no camera: --eye X,Y,Z --look-at X,Y,Z");
+  return cameraAt(scene, *viewpoint, aspect);
+}
+
+/// Under the first free number.
+std::string savePictures(const fs::path& name, const RenderResult& result, const Scene& scene,
+                         const Settings& settings) {
+  fs::path png, exr;
+  for (int i = 1;; ++i) {
+    png = fmt::format("{}-{:03}.png", name.string(), i);
+    exr = fs::path(png).replace_extension(".exr");
+    std::error_code error;
+    if (!fs::exists(png, error) && !fs::exists(exr, error)) break;
+  }
+  const Look look = lookOf(result.radiance, scene, settings, {png}, true);
+  const ImageMetadata metadata{{"whittle:settings", settingsToJson(result.stats.settings).dump()}};
+  for (const auto& file : {png, exr}) writePicture(file, result.radiance, result.alpha, look, metadata);
+  return fmt::format("wrote {} and {}", png.string(), exr.string());
+}
+
+int runView(ViewOptions& o) {
+  const view::WindowLibrary& library = loadWindow();
+  std::optional<view::Script> script;
+  if (!o.script.empty()) script = readScript(o.script);
+  warnIfAny(settleKernelCache());
+  prepareCpuThreads(o.settings.threads, o.settings.workGroup);
+  loadImageCodec();
+
+  auto sources = std::make_shared<Sources>(o.scene);
+  view::Services services;
+  Settings standard;
+  standard.raysPerPixel = kRaysPerPixel;
+  services.controls = settingControls(standard);
+  services.value = settingText;
+  services.set = setSetting;
+  services.load = [sources](const fs::path& file, Settings& settings, std::vector<std::string>& notes) {
+    return sources->load(file, settings, notes);
+  };
+  services.codes = codesOf;
+  services.cameraText = viewpointText;
+  services.camera = cameraOf;
+  services.save = savePictures;
+  services.wake = [&library] { library.wake(); };
+  services.compiler = "/proc/self/exe";
+  if (!o.kernelFolder.empty()) services.kernelFolder = o.kernelFolder;
+  view::Viewer viewer(std::move(services), o.settings, o.scene.file);
+
+  view::WindowOptions window;
+  window.title =
+      o.scene.file.empty() ? "Whittle" : fmt::format("{} – Whittle", o.scene.file.filename().string());
+  window.isLight = o.isLight;
+  window.print = [](const std::string& line) { tell(line + "\n"); };
+  window.writeCodes = [](const fs::path& file, int width, int height,
+                         const std::vector<std::uint8_t>& codes) {
+    writeCodes(file, {width, height, 4, codes}, {});
+  };
+  window.fonts = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                  "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
+  if (script) window.script = [&](view::Stage& stage) { return script->step(stage); };
+  library.run(viewer, window);
+  return 0;
+}
+
+}  // namespace
+
+void addView(CLI::App& app, int& status) {
+  auto o = std::make_shared<ViewOptions>();
+  o->settings.raysPerPixel = kRaysPerPixel;
+  CLI::App* c = app.add_subcommand("view", "look at a scene in a window, with every setting and statistic");
+  addSceneOptions(*c, o->scene);
+  c->get_option("SCENE")->required(false);
+  addPictureOptions(*c, o->settings, o->scene);
+  addErrorOptions(*c, o->settings);
+  addDeviceOptions(*c, o->settings);
+  c->option_defaults()->group("Window");
+  c->add_flag("--light", o->isLight, "dark letters on a light ground [off]");
+  addFile(*c, "--script", o->script, "FILE",
+          "keys, mouse, settings, screenshots and expectations, a command a line: host/view/README.md");
+  addFile(*c, "--kernels", o->kernelFolder, "FOLDER",
+          "read kernels from here, not from the program (for developers)");
+  c->footer("Example: whittle view scenes/cornell_box.glb\nH in the window shows its keys.");
+  c->callback([o, c, &status] {
+    settleRaysPerPixel(*c, o->settings);
+    status = runView(*o);
+  });
+}
+
+}  // namespace whittle::cli

@@ -1,0 +1,43 @@
+// Renders one after the other on one device: what two of them have in common is opened, compiled, built and
+// uploaded once. What a window needs, where a camera moves or a switch is thrown.
+#pragma once
+
+#include <memory>
+
+#include "render/renderer.h"
+
+namespace whittle {
+
+/// What the last render could not take over from the one before.
+struct RenderWork {
+  bool device = false;   ///< opened
+  int programs = 0;      ///< compiled, or loaded from the platform's cache
+  bool scene = false;    ///< the tree built and the scene uploaded
+  bool queues = false;   ///< allocated
+  bool picture = false;  ///< allocated
+};
+
+class RenderSession {
+ public:
+  RenderSession();
+  ~RenderSession();
+  RenderSession(RenderSession&&) noexcept;
+  RenderSession& operator=(RenderSession&&) noexcept;
+
+  /// As the free function of the same name, with the same bits whatever was rendered before. `scene`: the
+  /// same as last time with other cameras at most, unless sceneChanged was called. What a throw leaves
+  /// behind is good for the next render.
+  RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks = {});
+  /// The next scene differs from the last in more than its cameras.
+  void sceneChanged();
+  /// Everything on the device is let go and the device closed, as after it was lost.
+  void close();
+
+  const RenderWork& work() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace whittle

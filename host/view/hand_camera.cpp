@@ -1,0 +1,137 @@
+// See hand_camera.h.
+#include "view/hand_camera.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace whittle::view {
+namespace {
+
+constexpr glm::dvec3 kUp{0, 1, 0};
+/// Radians from the poles, where "up" has no meaning.
+constexpr double kPole = 1e-3;
+constexpr double kLeastView = 0.02, kLargestView = 3.0;  // radians
+
+glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return v * c + glm::cross(axis, v) * s + axis * (glm::dot(axis, v) * (1 - c));
+}
+
+}  // namespace
+
+HandCamera::HandCamera(const Camera& camera, const glm::dvec3& pivot)
+    : camera_(camera), position_(camera.position), pivot_(pivot) {}
+
+double HandCamera::distance() const {
+  return std::max(1e-9, glm::dot(pivot_ - position_, glm::dvec3(camera_.forward)));
+}
+
+void HandCamera::turn(const glm::dvec3& axis, double radians, bool aboutPivot) {
+  glm::dvec3 forward = glm::normalize(turned(glm::dvec3(camera_.forward), axis, radians));
+  glm::dvec3 up = turned(glm::dvec3(camera_.up), axis, radians);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
+  up = glm::cross(right, forward);
+  camera_.forward = glm::vec3(forward), camera_.right = glm::vec3(right), camera_.up = glm::vec3(up);
+  if (aboutPivot) position_ = pivot_ + turned(position_ - pivot_, axis, radians);
+  camera_.position = glm::vec3(position_);
+}
+
+void HandCamera::turnUpward(double radians, bool aboutPivot) {
+  const double height = std::asin(std::clamp(static_cast<double>(camera_.forward.y), -1.0, 1.0));
+  const double limit = std::numbers::pi / 2 - kPole;
+  const double allowed =
+      std::clamp(height + radians, std::min(-limit, height), std::max(limit, height)) - height;
+  turn(glm::dvec3(camera_.right), allowed, aboutPivot);
+}
+
+void HandCamera::orbit(double right, double up) {
+  turn(kUp, -right, true);
+  turnUpward(up, true);
+}
+
+void HandCamera::look(double right, double up) {
+  turn(kUp, -right, false);
+  turnUpward(up, false);
+}
+
+void HandCamera::pan(double right, double up) {
+  const double height = camera_.orthographic
+                            ? 2.0 * static_cast<double>(camera_.ymag)
+                            : 2.0 * std::tan(static_cast<double>(camera_.yfov) / 2) * distance();
+  const glm::dvec3 by = height * (right * glm::dvec3(camera_.right) + up * glm::dvec3(camera_.up));
+  position_ -= by;
+  camera_.position = glm::vec3(position_);
+}
+
+void HandCamera::zoom(double factor) {
+  if (!(factor > 0.0)) return;
+  if (camera_.orthographic) {
+    camera_.ymag = static_cast<float>(static_cast<double>(camera_.ymag) / factor);
+    return;
+  }
+  position_ = pivot_ + (position_ - pivot_) / factor;
+  camera_.position = glm::vec3(position_);
+}
+
+void HandCamera::fly(double right, double up, double ahead) {
+  const glm::dvec3 by = right * glm::dvec3(camera_.right) + up * kUp + ahead * glm::dvec3(camera_.forward);
+  position_ += by;
+  pivot_ += by;
+  camera_.position = glm::vec3(position_);
+}
+
+void HandCamera::setFieldOfView(double radians) {
+  camera_.yfov = static_cast<float>(std::clamp(radians, kLeastView, kLargestView));
+}
+
+void HandCamera::switchOrthographic() {
+  const double half = std::tan(static_cast<double>(camera_.yfov) / 2);
+  if (camera_.orthographic) {
+    // As far from the pivot as shows the same there.
+    const double wanted = static_cast<double>(camera_.ymag) / half;
+    position_ = pivot_ - glm::dvec3(camera_.forward) * wanted;
+    camera_.position = glm::vec3(position_);
+  } else {
+    camera_.ymag = static_cast<float>(half * distance());
+  }
+  camera_.orthographic = !camera_.orthographic;
+}
+
+glm::dvec3 pointUnder(const Scene& scene, const Camera& camera, double aspect, double x, double y,
+                      const glm::dvec3& otherwise) {
+  const double half = halfHeight(camera, aspect);
+  const glm::dvec3 across =
+      glm::dvec3(camera.right) * ((2 * x - 1) * half * aspect) + glm::dvec3(camera.up) * ((1 - 2 * y) * half);
+  glm::dvec3 origin(camera.position), direction(camera.forward);
+  if (camera.orthographic)
+    origin += across;
+  else
+    direction = glm::normalize(direction + across);
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  // Möller and Trumbore 1997, in double.
+  const auto nearest = [&](const tbb::blocked_range<std::size_t>& range, double least) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const Triangle& t = scene.triangles[i];
+      const glm::dvec3 a(scene.positions[t.v0]), e1 = glm::dvec3(scene.positions[t.v1]) - a,
+                                                 e2 = glm::dvec3(scene.positions[t.v2]) - a,
+                                                 p = glm::cross(direction, e2);
+      const double det = glm::dot(e1, p);
+      if (det == 0.0) continue;
+      const glm::dvec3 s = origin - a, q = glm::cross(s, e1);
+      const double u = glm::dot(s, p) / det, v = glm::dot(direction, q) / det, d = glm::dot(e2, q) / det;
+      if (u >= 0 && v >= 0 && u + v <= 1 && d > 0 && d < least) least = d;
+    }
+    return least;
+  };
+  const double hit = tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, scene.triangles.size(), 4096),
+                                          inf, nearest, [](double a, double b) { return std::min(a, b); });
+  if (std::isfinite(hit)) return origin + direction * hit;
+  return origin + direction * std::max(1e-6, glm::dot(otherwise - origin, direction));
+}
+
+}  // namespace whittle::view

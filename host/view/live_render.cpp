@@ -1,0 +1,201 @@
+// See live_render.h.
+#include "view/live_render.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "analysis/feature.h"
+#include "scene/input_error.h"
+
+namespace whittle::view {
+namespace {
+
+/// Of the coarse picture's sides.
+constexpr int kCoarse = 4;
+
+double since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// What moves with the camera is compiled in from the start, so that no move of it compiles anything.
+constexpr std::uint64_t kOfCamera = bitOf(Feature::NEAR_PLANE) | bitOf(Feature::ORTHOGRAPHIC);
+
+}  // namespace
+
+LiveRender::LiveRender(std::function<void()> wake, std::filesystem::path compiler,
+                       std::optional<std::filesystem::path> kernelFolder)
+    : wake_(std::move(wake)),
+      compiler_(std::move(compiler)),
+      kernelFolder_(std::move(kernelFolder)),
+      thread_([this] { loop(); }) {}
+
+LiveRender::~LiveRender() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+std::uint64_t LiveRender::ask(Request request) {
+  std::uint64_t number = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    next_ = std::move(request);
+    number = ++asked_;
+    stopped_ = false;
+    askedAt_ = std::chrono::steady_clock::now();
+    progress_.error.clear();
+  }
+  changed_.notify_all();
+  return number;
+}
+
+void LiveRender::run(std::string doing, std::function<void()> work) {
+  {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back({std::move(doing), std::move(work)});
+    next_.reset();
+    stopped_ = true;  // what is under way would be of the old scene
+    progress_.error.clear();
+  }
+  changed_.notify_all();
+}
+
+void LiveRender::stop() {
+  const std::lock_guard lock(mutex_);
+  next_.reset();
+  stopped_ = true;
+}
+
+Shown LiveRender::shown() const {
+  const std::lock_guard lock(mutex_);
+  return shown_;
+}
+
+Progress LiveRender::progress() const {
+  const std::lock_guard lock(mutex_);
+  Progress p = progress_;
+  if (!p.doing.empty()) p.seconds = since(askedAt_);
+  return p;
+}
+
+bool LiveRender::isWanted(std::uint64_t number) const {
+  const std::lock_guard lock(mutex_);
+  return number == asked_ && !stopped_ && !closing_;
+}
+
+void LiveRender::fail(const std::string& text) {
+  {
+    const std::lock_guard lock(mutex_);
+    progress_.error = text;
+  }
+  wake_();
+}
+
+void LiveRender::show(RenderResult result, std::uint64_t number, bool coarse, bool finished) {
+  {
+    const std::lock_guard lock(mutex_);
+    // A stopped request's last pass may lack samples of some pixels.
+    if (number != asked_) return;
+    if (shown_.request != number) progress_.firstSeconds = since(askedAt_);
+    shown_ = {std::make_shared<const RenderResult>(std::move(result)), number, coarse, finished};
+  }
+  wake_();
+}
+
+RenderHooks LiveRender::hooksFor(std::uint64_t number, bool coarse) {
+  RenderHooks hooks;
+  hooks.kernelFolder = kernelFolder_;
+  hooks.compiler = compiler_;
+  hooks.keepGoing = [this, number] { return isWanted(number); };
+  hooks.phase = [this](const std::string& text) {
+    {
+      const std::lock_guard lock(mutex_);
+      progress_.doing = text;
+      progress_.share = -1;
+    }
+    wake_();
+  };
+  if (coarse) return hooks;
+  hooks.progress = [this](const RenderProgress& p) {
+    const std::lock_guard lock(mutex_);
+    progress_.share = std::min(1.0, p.samplesDone / p.samplesTotal);
+  };
+  hooks.shown = [this, number](RenderResult result) {
+    if (isWanted(number)) show(std::move(result), number, false, false);
+  };
+  return hooks;
+}
+
+void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
+  if (onDevice_ != request.scene) session_.sceneChanged();
+  onDevice_ = request.scene;
+  const Scene& scene = *request.scene;
+  Settings settings = request.settings;
+  settings.keepFeatures |= kOfCamera;
+  if (request.coarseFirst && settings.width >= 2 * kCoarse && settings.height >= 2 * kCoarse) {
+    Settings coarse = settings;
+    coarse.width /= kCoarse;
+    coarse.height /= kCoarse;
+    // The sampler of the full picture, so that nothing else is compiled, but its first pass alone.
+    RenderHooks hooks = hooksFor(number, true);
+    hooks.camera = &request.camera;
+    bool hasAll = false;
+    hooks.shown = [&](RenderResult result) {
+      if (!hasAll && isWanted(number)) show(std::move(result), number, true, false);
+      hasAll = true;
+    };
+    hooks.keepGoing = [&] { return !hasAll && isWanted(number); };
+    session_.render(scene, coarse, hooks);
+  }
+  if (!isWanted(number)) return;
+  RenderHooks hooks = hooksFor(number, false);
+  hooks.camera = &request.camera;
+  RenderResult result = session_.render(scene, settings, hooks);
+  const bool whole = isWanted(number);
+  {
+    const std::lock_guard lock(mutex_);
+    progress_.work = session_.work();
+  }
+  if (whole) show(std::move(result), number, false, true);
+}
+
+void LiveRender::loop() {
+  for (;;) {
+    std::optional<Request> request;
+    std::optional<Job> job;
+    std::uint64_t number = 0;
+    {
+      std::unique_lock lock(mutex_);
+      progress_.doing.clear();
+      progress_.share = -1;
+      changed_.wait(lock, [&] { return closing_ || next_ || !jobs_.empty(); });
+      if (closing_) return;
+      if (!jobs_.empty()) {
+        job = std::move(jobs_.front());
+        jobs_.erase(jobs_.begin());
+        progress_.doing = job->doing;
+      } else {
+        request = std::exchange(next_, std::nullopt);
+        number = asked_;
+      }
+    }
+    wake_();
+    try {
+      if (job)
+        job->work();
+      else
+        renderRequest(*request, number);
+    } catch (const InputError& e) {
+      fail(e.what());
+    } catch (const std::exception& e) {
+      session_.close();  // a lost device stays lost
+      fail(e.what());
+    }
+    wake_();
+  }
+}
+
+}  // namespace whittle::view

@@ -1,0 +1,100 @@
+// Renders, on a thread of its own, what it was last asked for: a coarse picture at once, then the full one,
+// refined pass by pass. Whoever asks never waits.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "render/render_session.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace whittle::view {
+
+/// What a picture is made of. Scenes are shared, not copied: whoever changes one makes another.
+struct Request {
+  std::shared_ptr<const Scene> scene;
+  Camera camera;  ///< in the place of all of the scene's
+  Settings settings;
+  /// First a picture of a quarter of the width and height, with one sample for each pixel.
+  bool coarseFirst = false;
+};
+
+struct Shown {
+  std::shared_ptr<const RenderResult> result;  ///< null: nothing yet
+  std::uint64_t request = 0;                   ///< the one that it answers
+  bool coarse = false;
+  bool finished = false;  ///< nothing more will come for this request
+};
+
+struct Progress {
+  std::string doing;        ///< "compiling kernels", …; empty: nothing is being done
+  double share = -1;        ///< of the rays, in [0, 1]; negative: unknown
+  double seconds = 0;       ///< since the request
+  std::string error;        ///< why the last request has no (full) picture, in one line
+  RenderWork work;          ///< of the last picture that was finished
+  double firstSeconds = 0;  ///< from the last request to its first picture
+};
+
+class LiveRender {
+ public:
+  /// `wake` is called from the render's thread whenever there is something new to see.
+  /// `compiler`, `kernelFolder`: see RenderHooks.
+  LiveRender(std::function<void()> wake, std::filesystem::path compiler,
+             std::optional<std::filesystem::path> kernelFolder);
+  /// Ends what is under way between two launches.
+  ~LiveRender();
+  LiveRender(const LiveRender&) = delete;
+  LiveRender& operator=(const LiveRender&) = delete;
+
+  /// From now on this is rendered; what is under way ends between two launches. Returns the request's number.
+  std::uint64_t ask(Request request);
+  /// Work that has to happen on the render's thread, before the requests that follow: loading a scene.
+  /// `doing` is shown meanwhile. What it throws becomes Progress::error.
+  void run(std::string doing, std::function<void()> work);
+  /// Ends what is under way; the picture so far stays.
+  void stop();
+
+  Shown shown() const;
+  Progress progress() const;
+
+ private:
+  struct Job {
+    std::string doing;
+    std::function<void()> work;
+  };
+  void loop();
+  void renderRequest(const Request& request, std::uint64_t number);
+  RenderHooks hooksFor(std::uint64_t number, bool coarse);
+  void show(RenderResult result, std::uint64_t number, bool coarse, bool finished);
+  bool isWanted(std::uint64_t number) const;
+  void fail(const std::string& text);
+
+  std::function<void()> wake_;
+  std::filesystem::path compiler_;
+  std::optional<std::filesystem::path> kernelFolder_;
+  RenderSession session_;                  ///< of the thread alone
+  std::shared_ptr<const Scene> onDevice_;  ///< of the thread alone
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<Request> next_;
+  std::vector<Job> jobs_;
+  std::uint64_t asked_ = 0;  ///< number of the newest request
+  bool stopped_ = false;     ///< its refinement was ended by hand
+  bool closing_ = false;
+  Shown shown_;
+  Progress progress_;
+  std::chrono::steady_clock::time_point askedAt_{};
+  std::thread thread_;  ///< last: it uses all of the above
+};
+
+}  // namespace whittle::view

@@ -1,0 +1,106 @@
+// What a window shows and what it may ask for, without a word of the window itself: the library that draws
+// (host/window) knows nothing else of the program.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "view/live_render.h"
+
+namespace whittle::view {
+
+/// One setting as a widget: its value is text, as on the command line.
+struct Control {
+  enum class Kind : std::uint8_t { Switch, Whole, Real, Choice, Text };
+
+  std::string id;  ///< its option without the hyphens in front: "rays-per-pixel"
+  std::string group, label, unit;
+  Kind kind = Kind::Text;
+  std::vector<std::string> words;  ///< of a Choice; of others what they take besides numbers: "auto"
+  std::string standard;            ///< the default
+  std::string tip;                 ///< the option's help
+  bool reloads = false;            ///< the scene is read again
+  std::string remark;              ///< "at the next start", or empty
+};
+
+/// Codes as `whittle render` writes them into a .png of the same settings.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> codes;  ///< RGBA, row 0 at the top, A = 255
+  std::uint64_t serial = 0;         ///< grows with each new one; 0: there is none yet
+  bool coarse = false;
+};
+
+/// An axis-aligned view: from +Z, +X or +Y.
+enum class Side : std::uint8_t { Front, Right, Top };
+
+/// The window's thread alone calls these. None of them waits for the render.
+class ViewModel {
+ public:
+  virtual ~ViewModel() = default;
+
+  /// Takes over what the render's thread has made; call once a frame. True: something is new.
+  virtual bool update() = 0;
+
+  virtual const Picture& picture() const = 0;
+  /// The newest result with its statistics; null: none yet.
+  virtual const RenderResult* result() const = 0;
+  virtual Progress progress() const = 0;
+  /// The picture is the one that was asked for last, with all its samples.
+  virtual bool isFinished() const = 0;
+  /// It is of what was asked for last, coarse or not.
+  virtual bool hasPicture() const = 0;
+  /// Lines for the user: notes of loading, what was written, what went wrong. `serial` grows with each.
+  struct Message {
+    bool isError = false;
+    std::string text;
+  };
+  virtual const std::vector<Message>& messages() const = 0;
+
+  virtual const std::vector<Control>& controls() const = 0;
+  virtual std::string value(const std::string& id) const = 0;
+  /// Returns what is wrong with the value, in the command line's words; empty: it was taken.
+  virtual std::string set(const std::string& id, const std::string& text) = 0;
+
+  // The camera. Lengths are shares of the picture's height, angles radians.
+  /// Turns it about the point that holdPoint found.
+  virtual void orbit(double right, double up) = 0;
+  virtual void pan(double right, double up) = 0;
+  /// Towards that point; factor > 1: nearer.
+  virtual void zoom(double factor) = 0;
+  /// Turns it on the spot.
+  virtual void look(double right, double up) = 0;
+  /// In units of a hundredth of the scene's size.
+  virtual void fly(double right, double up, double ahead) = 0;
+  /// What lies at this pixel of the picture, in [0, 1]² from the top left, is what orbit, pan and zoom are
+  /// about.
+  virtual void holdPoint(double x, double y) = 0;
+  virtual void resetCamera() = 0;
+  virtual void frameAll() = 0;
+  virtual void seeFrom(Side side) = 0;
+  virtual void switchOrthographic() = 0;
+  virtual std::vector<std::string> cameras() const = 0;
+  virtual void chooseCamera(std::size_t index) = 0;
+  virtual double fieldOfView() const = 0;  ///< vertical, degrees
+  virtual void setFieldOfView(double degrees) = 0;
+  /// As options of the command line, and back: returns what is wrong with them, or nothing.
+  virtual std::string cameraText() const = 0;
+  virtual std::string pasteCamera(const std::string& text) = 0;
+  /// While a hand is on the camera pictures are coarse first.
+  virtual void setMoving(bool isMoving) = 0;
+
+  /// A scene, or an environment (.hdr, .exr).
+  virtual void open(const std::filesystem::path& file) = 0;
+  virtual void reload() = 0;
+  virtual std::string sceneFile() const = 0;
+  /// Writes NAME.png and NAME.exr of what is shown; a message says where.
+  virtual void save(const std::filesystem::path& withoutExtension) = 0;
+  virtual void stop() = 0;
+  /// Statistics and state as JSON text, for scripts: stats.…, view.….
+  virtual std::string stateJson() const = 0;
+};
+
+}  // namespace whittle::view

@@ -1,0 +1,272 @@
+// See viewer.h.
+#include "view/viewer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "report/stats.h"
+#include "scene/input_error.h"
+
+namespace whittle::view {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr std::size_t kMessages = 200;
+/// Settings that only change how radiance becomes codes.
+bool isOfCodes(const std::string& id) { return id == "exposure" || id == "tone-map"; }
+
+}  // namespace
+
+Viewer::Viewer(Services services, const Settings& settings, const std::filesystem::path& file)
+    : services_(std::move(services)),
+      settings_(settings),
+      live_(services_.wake, services_.compiler, services_.kernelFolder) {
+  if (!file.empty()) load(file, false);
+}
+
+void Viewer::say(bool isError, std::string text) {
+  if (messages_.size() == kMessages) messages_.erase(messages_.begin());
+  messages_.push_back({isError, std::move(text)});
+}
+
+double Viewer::aspect() const { return static_cast<double>(settings_.width) / settings_.height; }
+
+double Viewer::size() const {
+  if (!scene_) return 1.0;
+  const Bounds b = boundsOf(*scene_);
+  return std::max(1e-9, glm::length(b.hi - b.lo));
+}
+
+glm::dvec3 Viewer::middle() const {
+  if (!scene_) return glm::dvec3(0);
+  const Bounds b = boundsOf(*scene_);
+  return (b.lo + b.hi) / 2.0;
+}
+
+/// Its pivot is what it looks at, else the scene's middle.
+HandCamera Viewer::held(const Camera& camera) const {
+  HandCamera hand(camera, middle());
+  if (scene_) hand.setPivot(pointUnder(*scene_, camera, aspect(), 0.5, 0.5, middle()));
+  return hand;
+}
+
+void Viewer::load(const std::filesystem::path& file, bool keepsCamera) {
+  live_.run("reading the scene", [this, file, keepsCamera, settings = settings_]() mutable {
+    Loaded loaded;
+    loaded.before = loaded.settings = settings;
+    loaded.keepsCamera = keepsCamera;
+    loaded.scene = std::make_shared<const Scene>(services_.load(file, loaded.settings, loaded.notes));
+    const std::lock_guard lock(mutex_);
+    loaded_ = std::move(loaded);
+  });
+}
+
+/// Takes what loading settles, unless it was changed by hand meanwhile.
+void Viewer::settle(const Loaded& loaded) {
+  const auto take = [&](auto Settings::*member) {
+    if (settings_.*member == loaded.before.*member) settings_.*member = loaded.settings.*member;
+  };
+  take(&Settings::width);
+  take(&Settings::height);
+  take(&Settings::camera);
+  take(&Settings::ambient);
+}
+
+void Viewer::takeOver(Loaded loaded) {
+  const bool isFirst = !scene_;
+  scene_ = loaded.scene;
+  settle(loaded);
+  for (auto& text : loaded.notes) say(false, std::move(text));
+  if (isFirst || !loaded.keepsCamera) camera_ = held(scene_->cameras[findCamera(*scene_, settings_.camera)]);
+  ask();
+}
+
+void Viewer::ask() {
+  if (!scene_) return;
+  request_ = live_.ask({scene_, camera_.camera(), settings_, isMoving_});
+}
+
+bool Viewer::update() {
+  bool isNew = false;
+  std::optional<Loaded> loaded;
+  {
+    const std::lock_guard lock(mutex_);
+    loaded.swap(loaded_);
+  }
+  if (loaded) takeOver(std::move(*loaded)), isNew = true;
+  Shown shown = live_.shown();
+  if (shown.result != shown_.result || shown.finished != shown_.finished) {
+    shown_ = std::move(shown);
+    makeCodes();
+    isNew = true;
+  }
+  const std::string error = live_.progress().error;
+  if (error != lastError_) {
+    if (!error.empty()) say(true, error);
+    lastError_ = error;
+    isNew = true;
+  }
+  return isNew;
+}
+
+void Viewer::makeCodes() {
+  if (!shown_.result || !scene_) return;
+  const FloatImage& radiance = shown_.result->radiance;
+  picture_.width = radiance.width;
+  picture_.height = radiance.height;
+  picture_.codes = services_.codes(radiance, *scene_, settings_);
+  picture_.coarse = shown_.coarse;
+  ++picture_.serial;
+}
+
+bool Viewer::isFinished() const { return shown_.finished && shown_.request == request_; }
+
+std::string Viewer::set(const std::string& id, const std::string& text) {
+  Settings changed = settings_;
+  try {
+    services_.set(changed, id, text);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  settings_ = changed;
+  const auto control = std::find_if(services_.controls.begin(), services_.controls.end(),
+                                    [&](const Control& c) { return c.id == id; });
+  if (isOfCodes(id))
+    makeCodes();
+  else if (control != services_.controls.end() && control->reloads)
+    load({}, true);
+  else
+    ask();
+  return {};
+}
+
+void Viewer::cameraMoved() {
+  if (scene_) ask();
+}
+
+void Viewer::orbit(double right, double up) { camera_.orbit(right, up), cameraMoved(); }
+void Viewer::pan(double right, double up) { camera_.pan(right, up), cameraMoved(); }
+void Viewer::zoom(double factor) { camera_.zoom(factor), cameraMoved(); }
+void Viewer::look(double right, double up) { camera_.look(right, up), cameraMoved(); }
+void Viewer::fly(double right, double up, double ahead) {
+  const double step = size() / 100;
+  camera_.fly(right * step, up * step, ahead * step);
+  cameraMoved();
+}
+
+void Viewer::holdPoint(double x, double y) {
+  if (scene_) camera_.setPivot(pointUnder(*scene_, camera_.camera(), aspect(), x, y, camera_.pivot()));
+}
+
+void Viewer::resetCamera() {
+  if (!scene_) return;
+  camera_ = held(scene_->cameras[findCamera(*scene_, settings_.camera)]);
+  ask();
+}
+
+/// As far back along the view as shows the whole box's ball.
+void Viewer::frameAll() {
+  if (!scene_) return;
+  Camera camera = camera_.camera();
+  const double radius = size() / 2, half = halfHeight(camera, aspect());
+  const double least = std::min(1.0, aspect());
+  if (camera.orthographic) {
+    camera.ymag = static_cast<float>(radius / least);
+    camera.aspect = 0;
+    camera.position = glm::vec3(middle() - glm::dvec3(camera.forward) * 2.0 * radius);
+  } else {
+    const double away = radius / std::sin(std::atan(half * least));
+    camera.position = glm::vec3(middle() - glm::dvec3(camera.forward) * away);
+  }
+  camera_ = HandCamera(camera, middle());
+  ask();
+}
+
+void Viewer::seeFrom(Side side) {
+  Camera camera = camera_.camera();
+  const auto look = [&](const glm::vec3& forward, const glm::vec3& up) {
+    camera.forward = forward, camera.up = up, camera.right = glm::cross(forward, up);
+  };
+  if (side == Side::Front) look({0, 0, -1}, {0, 1, 0});
+  if (side == Side::Right) look({-1, 0, 0}, {0, 1, 0});
+  if (side == Side::Top) look({0, -1, 0}, {0, 0, -1});
+  camera_ = HandCamera(camera, middle());
+  frameAll();
+}
+
+void Viewer::switchOrthographic() { camera_.switchOrthographic(), cameraMoved(); }
+
+std::vector<std::string> Viewer::cameras() const {
+  std::vector<std::string> names;
+  if (!scene_) return names;
+  for (std::size_t i = 0; i < scene_->cameras.size(); ++i) {
+    const Camera& c = scene_->cameras[i];
+    names.push_back(fmt::format("{} {}", i, c.name.empty() ? c.node : c.name));
+  }
+  return names;
+}
+
+void Viewer::chooseCamera(std::size_t index) {
+  if (!scene_ || index >= scene_->cameras.size()) return;
+  settings_.camera = std::to_string(index);
+  resetCamera();
+}
+
+double Viewer::fieldOfView() const { return static_cast<double>(camera_.camera().yfov) * kDegrees; }
+void Viewer::setFieldOfView(double degrees) {
+  camera_.setFieldOfView(degrees / kDegrees);
+  cameraMoved();
+}
+
+std::string Viewer::cameraText() const {
+  return scene_ ? services_.cameraText(camera_.camera(), scene_->origin) : std::string();
+}
+
+std::string Viewer::pasteCamera(const std::string& text) {
+  if (!scene_) return "there is no scene yet";
+  try {
+    camera_ = held(services_.camera(*scene_, aspect(), text));
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  ask();
+  return {};
+}
+
+void Viewer::setMoving(bool isMoving) { isMoving_ = isMoving; }
+
+void Viewer::open(const std::filesystem::path& file) { load(file, false); }
+void Viewer::reload() { load({}, true); }
+std::string Viewer::sceneFile() const { return scene_ ? scene_->file : std::string(); }
+
+void Viewer::save(const std::filesystem::path& withoutExtension) {
+  if (!shown_.result || !scene_) return say(true, "there is no picture yet");
+  try {
+    say(false, services_.save(withoutExtension, *shown_.result, *scene_, settings_));
+  } catch (const std::exception& e) {
+    say(true, e.what());
+  }
+}
+
+std::string Viewer::stateJson() const {
+  nlohmann::ordered_json state;
+  if (shown_.result) state["stats"] = statsToJson(shown_.result->stats);
+  const Progress p = live_.progress();
+  state["view"] = {{"finished", isFinished()},
+                   {"coarse", shown_.coarse},
+                   {"doing", p.doing},
+                   {"error", p.error},
+                   {"firstSeconds", p.firstSeconds},
+                   {"width", picture_.width},
+                   {"height", picture_.height},
+                   {"programs", p.work.programs},
+                   {"scene", p.work.scene ? 1 : 0},
+                   {"messages", messages_.size()}};
+  return state.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace whittle::view

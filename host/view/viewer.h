@@ -1,0 +1,118 @@
+// The model behind a window: settings, camera and scene, and a picture of them that is always under way.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/hand_camera.h"
+#include "view/live_render.h"
+#include "view/view_model.h"
+
+namespace whittle::view {
+
+/// What the command line knows and the model does not. All but `load` are called by the window's thread.
+struct Services {
+  std::vector<Control> controls;
+  /// The value of a control as text.
+  std::function<std::string(const Settings&, const std::string& id)> value;
+  /// Throws InputError, with the settings as before.
+  std::function<void(Settings&, const std::string& id, const std::string& text)> set;
+  /// Reads a scene on the render's thread: settles what the settings leave to it, and adds notes. `file`: a
+  /// scene or an environment, empty: the same as before. Throws InputError.
+  std::function<Scene(const std::filesystem::path& file, Settings&, std::vector<std::string>& notes)> load;
+  /// Codes of a picture, RGBA.
+  std::function<std::vector<std::uint8_t>(const FloatImage&, const Scene&, const Settings&)> codes;
+  std::function<std::string(const Camera&, const glm::dvec3& origin)> cameraText;
+  /// Throws InputError.
+  std::function<Camera(const Scene&, double aspect, const std::string& text)> camera;
+  /// Writes NAME.png and NAME.exr and returns what was written. Throws.
+  std::function<std::string(const std::filesystem::path&, const RenderResult&, const Scene&, const Settings&)>
+      save;
+  std::function<void()> wake;  ///< the window: there is something new; any thread
+  std::filesystem::path compiler;
+  std::optional<std::filesystem::path> kernelFolder;
+};
+
+class Viewer : public ViewModel {
+ public:
+  /// Starts to load the scene at once, if `file` is not empty.
+  Viewer(Services services, const Settings& settings, const std::filesystem::path& file);
+
+  bool update() override;
+  const Picture& picture() const override { return picture_; }
+  const RenderResult* result() const override { return shown_.result.get(); }
+  Progress progress() const override { return live_.progress(); }
+  bool isFinished() const override;
+  bool hasPicture() const override { return shown_.result && shown_.request == request_; }
+  const std::vector<Message>& messages() const override { return messages_; }
+  const std::vector<Control>& controls() const override { return services_.controls; }
+  std::string value(const std::string& id) const override { return services_.value(settings_, id); }
+  std::string set(const std::string& id, const std::string& text) override;
+
+  void orbit(double right, double up) override;
+  void pan(double right, double up) override;
+  void zoom(double factor) override;
+  void look(double right, double up) override;
+  void fly(double right, double up, double ahead) override;
+  void holdPoint(double x, double y) override;
+  void resetCamera() override;
+  void frameAll() override;
+  void seeFrom(Side side) override;
+  void switchOrthographic() override;
+  std::vector<std::string> cameras() const override;
+  void chooseCamera(std::size_t index) override;
+  double fieldOfView() const override;
+  void setFieldOfView(double degrees) override;
+  std::string cameraText() const override;
+  std::string pasteCamera(const std::string& text) override;
+  void setMoving(bool isMoving) override;
+
+  void open(const std::filesystem::path& file) override;
+  void reload() override;
+  std::string sceneFile() const override;
+  void save(const std::filesystem::path& withoutExtension) override;
+  void stop() override { live_.stop(); }
+  std::string stateJson() const override;
+
+ private:
+  /// What the render's thread has read.
+  struct Loaded {
+    std::shared_ptr<const Scene> scene;
+    Settings before, settings;  ///< what loading was given, and what it made of that
+    std::vector<std::string> notes;
+    bool keepsCamera = false;
+  };
+  void load(const std::filesystem::path& file, bool keepsCamera);
+  void takeOver(Loaded loaded);
+  void settle(const Loaded& loaded);
+  void ask();
+  void cameraMoved();
+  void say(bool isError, std::string text);
+  double aspect() const;
+  double size() const;  ///< of the scene, metres
+  glm::dvec3 middle() const;
+  HandCamera held(const Camera& camera) const;
+  void makeCodes();
+
+  Services services_;
+  Settings settings_;
+  std::shared_ptr<const Scene> scene_;  ///< null: none yet
+  HandCamera camera_;
+  bool isMoving_ = false;
+  Shown shown_;
+  std::uint64_t request_ = 0;
+  Picture picture_;
+  std::string codesOf_;  ///< the exposure and tone map that the codes were made with
+  std::vector<Message> messages_;
+  std::string lastError_;
+  std::mutex mutex_;  ///< of loaded_
+  std::optional<Loaded> loaded_;
+  LiveRender live_;  ///< last: its thread uses services_ and loaded_
+};
+
+}  // namespace whittle::view

@@ -1,0 +1,28 @@
+// What stands left and right of the picture: settings, and what the render says of itself.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "view/view_model.h"
+
+namespace whittle::view {
+
+/// What the panels remember between two frames.
+struct PanelState {
+  std::map<std::string, std::string> edited;    ///< texts under way, by the control's id
+  std::map<std::string, std::string> problems;  ///< of values that were not taken
+  bool showsHelp = false;
+  bool showsPanels = true;
+  bool isLight = false;
+  bool restyles = false;  ///< the style was changed
+};
+
+/// Into the current ImGui window.
+void settingsPanel(ViewModel& model, PanelState& state);
+void statisticsPanel(const ViewModel& model);
+void cameraPanel(ViewModel& model);
+void messageLine(const ViewModel& model);
+void helpWindow(PanelState& state);
+
+}  // namespace whittle::view

@@ -1,0 +1,88 @@
+// The window: GLFW, OpenGL and Dear ImGui, from the first frame to the last.
+#pragma once
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <set>
+#include <string>
+
+#include "view/window/panels.h"
+#include "view/window/window_library.h"
+
+struct GLFWwindow;
+
+namespace whittle::view {
+
+class Window : public Stage {
+ public:
+  /// Throws std::runtime_error where there is no display, or none with OpenGL 3.
+  Window(ViewModel& model, const WindowOptions& options);
+  ~Window() override;
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// Until it is closed.
+  void run();
+
+  void redraw() override { framesToDraw_ = std::max(framesToDraw_, 1); }
+  void key(const std::string& name) override;
+  void pointer(const Place& place) override;
+  void button(const std::string& name, bool isDown) override;
+  void wheel(double steps) override { pendingWheel_ += steps; }
+  void resize(int width, int height) override;
+  void drop(const std::string& file) override;
+  void screenshot(const std::filesystem::path& file) override { pendingShot_ = file; }
+  std::string set(const std::string& id, const std::string& text) override { return model_.set(id, text); }
+  bool hasPicture() const override { return model_.hasPicture(); }
+  bool isFinished() const override { return model_.isFinished(); }
+  std::string stateJson() const override;
+  void print(const std::string& text) override { options_.print(text); }
+  double now() const override;
+  void quit() override;
+
+ private:
+  void frame();
+  void drawPanels(float width, float height);
+  void drawPicture();
+  void upload();
+  void writeShot();
+  void moveCamera();
+  void shortcuts(int key, bool ctrl);
+  void pressed(int key, int mods);
+  void restyle();
+  /// The picture's rectangle in the window.
+  struct Rect {
+    float x = 0, y = 0, width = 0, height = 0;
+  };
+  Rect pictureRect(float left, float top, float width, float height) const;
+  ImVec2 inPicture(const ImVec2& pointer) const;  ///< [0, 1]²
+  bool isBusy() const;
+
+  ViewModel& model_;
+  const WindowOptions& options_;
+  GLFWwindow* window_ = nullptr;
+  PanelState panels_;
+  unsigned texture_ = 0;
+  int textureWidth_ = 0, textureHeight_ = 0;
+  std::uint64_t uploaded_ = 0;  ///< serial of the picture in the texture
+  bool isLinear_ = false;
+  Rect picture_;
+  float scale_ = 1;  ///< of the monitor
+  int framesToDraw_ = 3;
+  int frames_ = 0;
+  double drawnAt_ = 0;
+  bool wasMoving_ = false;
+  std::chrono::steady_clock::time_point movedAt_{};
+  // What a script does with the mouse.
+  bool isScripted_ = false;
+  ImVec2 pointer_{-1, -1};
+  std::array<bool, 3> buttons_{};
+  double pendingWheel_ = 0;
+  std::set<int> heldKeys_;
+  std::filesystem::path pendingShot_;  ///< the next frame is written there
+};
+
+}  // namespace whittle::view

@@ -1,0 +1,189 @@
+// `whittle view` in a real window, on a display without a screen: scripts drive it as hands would.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <OpenImageIO/imageio.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "run_whittle.h"
+
+namespace whittle::test {
+namespace {
+
+/// An X server of its own; `name` is empty where there is none to be had.
+class VirtualDisplay {
+ public:
+  explicit VirtualDisplay(const std::string& screen = "1280x720x24") {
+    int ends[2];
+    if (pipe(ends) != 0) return;
+    server_ = fork();
+    if (server_ == 0) {
+      close(ends[0]);
+      const int nowhere = open("/dev/null", O_WRONLY);
+      dup2(nowhere, STDERR_FILENO);
+      const std::string out = std::to_string(ends[1]);
+      execlp("Xvfb", "Xvfb", "-displayfd", out.c_str(), "-screen", "0", screen.c_str(), "-nolisten", "tcp",
+             nullptr);
+      _exit(127);
+    }
+    close(ends[1]);
+    std::string digits;  // up to the end of the line
+    for (char c = 0; ::read(ends[0], &c, 1) == 1 && c != '\n';) digits.push_back(c);
+    close(ends[0]);
+    if (!digits.empty()) name = fmt::format(":{}", digits);
+  }
+  ~VirtualDisplay() {
+    if (server_ <= 0) return;
+    kill(server_, SIGTERM);
+    waitpid(server_, nullptr, 0);
+  }
+  VirtualDisplay(const VirtualDisplay&) = delete;
+  VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+
+  std::string name;
+
+ private:
+  pid_t server_ = -1;
+};
+
+/// Small, so that a frame is quick.
+const std::vector<std::string> kSmall{"--width",          "160", "--height",  "90",
+                                      "--rays-per-pixel", "4",   "--bounces", "3"};
+
+class WindowTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (access(WHITTLE_WINDOW, F_OK) != 0) GTEST_SKIP() << "built without a window";
+    if (display_.name.empty()) GTEST_SKIP() << "no Xvfb";
+  }
+
+  Outcome play(const std::string& script, std::vector<std::string> more = kSmall,
+               const std::string& file = scene("cornell_box.glb")) {
+    std::ofstream(folder_ / "script") << script;
+    std::vector<std::string> args{"view", "--script", "script"};
+    if (!file.empty()) args.insert(args.begin() + 1, file);
+    args.insert(args.end(), more.begin(), more.end());
+    return runWhittle(args, {folder_.path(), {{"DISPLAY", display_.name}, {"LIBGL_ALWAYS_SOFTWARE", "1"}}});
+  }
+  void expectPlayed(const std::string& script, std::vector<std::string> more = kSmall,
+                    const std::string& file = scene("cornell_box.glb")) {
+    const Outcome run = play(script, std::move(more), file);
+    EXPECT_EQ(run.status, 0) << run.err << run.out;
+  }
+  struct Codes {
+    int width = 0, height = 0, channels = 0;
+    std::vector<std::uint8_t> bytes;
+    std::array<std::uint8_t, 3> at(int x, int y) const {
+      const std::size_t i = (static_cast<std::size_t>(y) * width + x) * channels;
+      return {bytes[i], bytes[i + 1], bytes[i + 2]};
+    }
+  };
+  Codes read(const std::string& name) {
+    auto in = OIIO::ImageInput::open((folder_ / name).string());
+    if (!in) {
+      ADD_FAILURE() << name << " is not there";
+      return {};
+    }
+    Codes codes{in->spec().width, in->spec().height, in->spec().nchannels, {}};
+    codes.bytes.resize(static_cast<std::size_t>(codes.width) * codes.height * codes.channels);
+    in->read_image(0, 0, 0, codes.channels, OIIO::TypeDesc::UINT8, codes.bytes.data());
+    return codes;
+  }
+  /// Numbers of a line `PATH = VALUE` that a script printed.
+  static double printed(const Outcome& run, const std::string& path) {
+    const auto at = run.out.find(path + " = ");
+    return at == std::string::npos ? -1 : std::strtod(run.out.c_str() + at + path.size() + 3, nullptr);
+  }
+
+  VirtualDisplay display_;
+  Folder folder_;
+};
+
+TEST_F(WindowTest, StandingStillItIsThePictureOfRender) {
+  const Outcome run = play(
+      "wait refined\nscreenshot window.png\nprint window.pictureX\nprint window.pictureY\n"
+      "print window.pictureWidth\nquit\n");
+  ASSERT_EQ(run.status, 0) << run.err;
+  std::vector<std::string> args{"render", scene("cornell_box.glb"), "-o", "render.png", "--quiet"};
+  args.insert(args.end(), kSmall.begin(), kSmall.end());
+  ASSERT_EQ(runWhittle(args, {folder_.path(), {}}).status, 0);
+  const Codes window = read("window.png"), picture = read("render.png");
+  const int x0 = static_cast<int>(printed(run, "window.pictureX")),
+            y0 = static_cast<int>(printed(run, "window.pictureY"));
+  const int scale = static_cast<int>(printed(run, "window.pictureWidth")) / picture.width;
+  ASSERT_GE(scale, 1);
+  std::size_t different = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      for (int k = 0; k < scale; ++k)
+        different += picture.at(x, y) != window.at(x0 + x * scale + k, y0 + y * scale + k);
+  EXPECT_EQ(different, 0U) << "of " << picture.width * picture.height;
+}
+
+TEST_F(WindowTest, EverySettingGoesThroughTheCommandLinesChecks) {
+  expectPlayed(
+      "wait refined\nexpect stats.rays.shadow > 0\nset shadows off\nwait refined\nexpect stats.rays.shadow "
+      "== 0\n"
+      "set shadows on\nset bounces 1\nwait refined\nexpect stats.rays.impulse == 0\n"
+      "set search array\nset search tree\nset sampler sobol\nset impulses one\nset cutoff 0.01\nset lanes 1\n"
+      "set wavefront 4096\nset work-group 4\nset seed 7\nset ambient 0.1\nset back-faces show\nset exposure "
+      "1\n"
+      "set tone-map none\nset transparent-bounces 3\nset mirror-roughness 0.1\nset background-rotation 30\n"
+      "set background-strength 2\nset rays-per-pixel 2\nset target-error 1%\nset width 80\nset height 45\n"
+      "wait refined\nexpect stats.settings.width == 80\nexpect stats.settings.sampler == sobol\n"
+      "expect view.width == 80\n");
+  EXPECT_NE(play("wait refined\nset bounces 0\n").err.find("line 2: --bounces: '0' is not a whole number"),
+            std::string::npos);
+}
+
+TEST_F(WindowTest, ExposureTracesNothingAndACameraCompilesNothing) {
+  expectPlayed(
+      "wait refined\nset exposure 2\nwait 0.2\nexpect view.finished == true\n"
+      "drag 80 40 100 45 left\nwait refined\nexpect view.programs == 0\nexpect view.scene == 0\n"
+      "key 5\nwait refined\nexpect view.programs == 0\nkey 7\nkey 1\nkey f\nkey r\nwheel 80 45 3\n"
+      "drag 80 40 60 40 right\ndrag 80 40 60 40 middle\nwait refined\nexpect view.programs == 0\n");
+}
+
+TEST_F(WindowTest, AnySize) {
+  expectPlayed(
+      "wait picture\nresize 1 1\nwait 0.3\nresize 200 100\nwait 0.3\nresize 1280 720\nwait refined\n");
+}
+
+TEST_F(WindowTest, BadFilesAreSaidAndEndNothing) {
+  std::ofstream(folder_ / "bad.glb") << "no file of glTF";
+  expectPlayed(
+      "wait refined\ndrop bad.glb\nwait 0.5\nexpect view.messages > 0\nexpect view.finished == true\n"
+      "set bounces 2\nwait refined\nexpect stats.settings.bounces == 2\n");
+  expectPlayed("wait 0.3\ndrop " + scene("mirror.glb") + "\nwait refined\nexpect stats.rays.primary > 0\n",
+               kSmall, "");
+}
+
+TEST_F(WindowTest, ClosesWhileItCompiles) {
+  const Folder cache;
+  std::ofstream(folder_ / "script") << "wait 0.2\nquit\n";
+  const Outcome run =
+      runWhittle({"view", scene("cornell_box.glb"), "--script", "script"},
+                 {folder_.path(), {{"DISPLAY", display_.name}, {"POCL_CACHE_DIR", cache.path().string()}}});
+  EXPECT_EQ(run.status, 0) << run.err;
+}
+
+TEST_F(WindowTest, SavesWhatItShows) {
+  expectPlayed("wait refined\nkey Ctrl+S\nwait 0.2\n");
+  const Codes png = read("whittle-001.png");
+  EXPECT_EQ(png.width, 160);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "whittle-001.exr"));
+}
+
+TEST_F(WindowTest, WithoutADisplayItSaysSo) {
+  const Outcome run = runWhittle({"view", scene("cornell_box.glb")},
+                                 {folder_.path(), {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("whittle: there is no display"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace whittle::test

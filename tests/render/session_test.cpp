@@ -1,0 +1,125 @@
+// Renders one after the other: the bits of single ones, and no work twice.
+#include "render/render_session.h"
+
+#include "support/pictures.h"
+#include "support/single_rays.h"
+
+namespace whittle::test {
+namespace {
+
+RenderHooks sessionHooks() {
+  RenderHooks hooks;
+  hooks.kernelFolder = testKernelFolder();
+  return hooks;
+}
+
+Settings sessionSettings() {
+  Settings settings = wholeSettings(4);
+  settings.raysPerPixel = 4;
+  if (const char* selector = std::getenv("WHITTLE_TEST_DEVICE")) settings.device = selector;
+  return settings;
+}
+
+TEST(RenderSession, GivesTheBitsOfSingleRenders) {
+  RenderSession session;
+  const Scene scene = ownScene("cornell_box");
+  Settings settings = sessionSettings();
+  const auto expectSame = [&](const Settings& s, const char* what) {
+    const RenderResult kept = session.render(scene, s, sessionHooks());
+    const RenderResult single = render(scene, s, sessionHooks());
+    EXPECT_EQ(differingPixels(kept.radiance, single.radiance), 0U) << what;
+    EXPECT_EQ(kept.stats.rays.total(), single.stats.rays.total()) << what;
+    EXPECT_EQ(kept.stats.buffers.size(), single.stats.buffers.size()) << what;
+  };
+  expectSame(settings, "the first");
+  EXPECT_TRUE(session.work().device && session.work().scene && session.work().queues &&
+              session.work().picture);
+  expectSame(settings, "the same again");
+  EXPECT_FALSE(session.work().device || session.work().scene || session.work().queues ||
+               session.work().picture);
+  EXPECT_EQ(session.work().programs, 0);
+  settings.width = 40, settings.height = 30;
+  expectSame(settings, "another size");
+  EXPECT_TRUE(session.work().picture);
+  EXPECT_FALSE(session.work().scene);
+  settings.wavefront = 1000;
+  expectSame(settings, "another wavefront");
+  EXPECT_TRUE(session.work().queues);
+  EXPECT_FALSE(session.work().scene || session.work().picture);
+  settings.shadows = false;
+  expectSame(settings, "no shadows");
+  EXPECT_FALSE(session.work().scene) << "the scene's buffers are the same";
+  settings.bounces = 2;
+  expectSame(settings, "fewer bounces");
+  EXPECT_EQ(session.work().programs, 0);
+  settings.search = Search::Array;
+  expectSame(settings, "without a tree");
+  EXPECT_TRUE(session.work().scene);
+}
+
+TEST(RenderSession, AnotherSceneIsUploadedWhenItIsSaid) {
+  RenderSession session;
+  const Settings settings = sessionSettings();
+  for (const char* name : {"mirror", "cornell_box"}) {
+    session.sceneChanged();
+    const Scene scene = ownScene(name);
+    EXPECT_EQ(differingPixels(session.render(scene, settings, sessionHooks()).radiance,
+                              render(scene, settings, sessionHooks()).radiance),
+              0U)
+        << name;
+  }
+}
+
+TEST(RenderSession, AnotherCameraCostsNothingAndShowsWhatItSees) {
+  RenderSession session;
+  Scene scene = ownScene("cornell_box");
+  const Settings settings = sessionSettings();
+  session.render(scene, settings, sessionHooks());
+  Camera camera = scene.cameras[0];
+  camera.position += glm::vec3(0.1F, 0.2F, -0.1F);
+  RenderHooks hooks = sessionHooks();
+  hooks.camera = &camera;
+  const RenderResult moved = session.render(scene, settings, hooks);
+  EXPECT_FALSE(session.work().scene || session.work().queues || session.work().picture);
+  EXPECT_EQ(session.work().programs, 0);
+  scene.cameras[0] = camera;
+  EXPECT_EQ(differingPixels(moved.radiance, render(scene, settings, sessionHooks()).radiance), 0U);
+}
+
+TEST(RenderSession, PassesDoubleTheSamplesAndTheLastIsThePicture) {
+  RenderSession session;
+  const Scene scene = ownScene("cornell_box");
+  const Settings settings = sessionSettings();
+  std::vector<double> samples;
+  FloatImage last;
+  RenderHooks hooks = sessionHooks();
+  hooks.shown = [&](RenderResult result) {
+    samples.push_back(result.stats.samples.mean);
+    last = std::move(result.radiance);
+  };
+  const RenderResult whole = session.render(scene, settings, hooks);
+  EXPECT_EQ(samples, (std::vector<double>{1, 2, 4}));
+  EXPECT_EQ(differingPixels(last, whole.radiance), 0U);
+  EXPECT_EQ(differingPixels(whole.radiance, render(scene, settings, sessionHooks()).radiance), 0U);
+}
+
+TEST(RenderSession, EndsWhenItIsToldToAndGoesOnAsIfNothingHadBeen) {
+  RenderSession session;
+  const Scene scene = ownScene("cornell_box");
+  Settings settings = sessionSettings();
+  settings.wavefront = 600;  // many launches
+  for (const int after : {0, 1, 5, 20}) {
+    int asked = 0;
+    RenderHooks hooks = sessionHooks();
+    hooks.keepGoing = [&] { return asked++ < after; };
+    const RenderResult cut = session.render(scene, settings, hooks);
+    EXPECT_LT(cut.stats.samples.mean, 4) << after;
+    EXPECT_EQ(differingPixels(session.render(scene, settings, sessionHooks()).radiance,
+                              render(scene, settings, sessionHooks()).radiance),
+              0U)
+        << after;
+  }
+}
+
+}  // namespace
+}  // namespace whittle::test

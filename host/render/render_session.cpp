@@ -263,13 +263,13 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
         return RayQueues(compute, decisions.features, queueKey.capacity, decisions.compactChunk);
       });
     });
-  const auto [programs, compileSeconds] = compiled.get();
-  log.add("compile kernels", compiling, compileSeconds);
+  const Compiled built = compiled.get();
+  log.add("compile kernels", compiling, built.seconds);
   kept.work.programs = static_cast<int>(device.programs.size() - programsBefore);
 
   say(hooks, kLastPhase);
   const auto rendering = Clock::now();
-  StageRunner stages(compute, programs, decisions.workGroup,
+  StageRunner stages(compute, built.programs, decisions.workGroup,
                      {decisions.features.has(Feature::PACKETS), decisions.compactChunk},
                      kept.queues.value->entryBytes());
   stages.record(hooks.trace);
@@ -300,7 +300,7 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
     kept.scene.value->report(stats.buffers);
     kept.queues.value->report(stats.buffers);
     picture.report(stats.buffers);
-    stats.time.compile = compileSeconds;
+    stats.time.compile = built.seconds;
     stats.time.build = log.seconds("build tree");
     stats.time.upload = pictureSeconds + log.seconds("upload") + log.seconds("allocate queues");
     stats.time.render = loop.seconds();

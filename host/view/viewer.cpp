@@ -2,6 +2,7 @@
 #include "view/viewer.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "report/stats.h"
 #include "scene/input_error.h"
+#include "view/false_colors.h"
 
 namespace whittle::view {
 namespace {
@@ -24,7 +26,20 @@ bool isOfCodes(const std::string& id) { return id == "exposure" || id == "tone-m
 Viewer::Viewer(Services services, const Settings& settings, const std::filesystem::path& file)
     : services_(std::move(services)),
       settings_(settings),
+      layer_(kLayers.front()),
       live_(services_.wake, services_.compiler, services_.kernelFolder) {
+  Control layer;
+  layer.id = kLayerControl;
+  layer.group = "Picture";
+  layer.label = layer.id;
+  layer.kind = Control::Kind::Choice;
+  layer.words = kLayers;
+  layer.standard = layer_;
+  layer.tip =
+      "radiance, or what each pixel's first sample meets: distance, normal, base colour, triangle; or how "
+      "many "
+      "samples it has";
+  services_.controls.insert(services_.controls.begin(), layer);
   if (!file.empty()) load(file, false);
 }
 
@@ -87,7 +102,9 @@ void Viewer::takeOver(Loaded loaded) {
 
 void Viewer::ask() {
   if (!scene_) return;
-  request_ = live_.ask({scene_, camera_.camera(), settings_, isMoving_});
+  Settings settings = settings_;
+  settings.aovs = layer_ != kLayers.front();
+  request_ = live_.ask({scene_, camera_.camera(), settings, isMoving_});
 }
 
 bool Viewer::update() {
@@ -118,7 +135,10 @@ void Viewer::makeCodes() {
   const FloatImage& radiance = shown_.result->radiance;
   picture_.width = radiance.width;
   picture_.height = radiance.height;
-  picture_.codes = services_.codes(radiance, *scene_, settings_);
+  // The layers come with the first picture that is rendered for them.
+  const bool isLayer = layer_ != kLayers.front() && shown_.result->aovs.contains(layer_);
+  picture_.codes =
+      isLayer ? falseColors(*shown_.result, layer_) : services_.codes(radiance, *scene_, settings_);
   picture_.coarse = shown_.coarse;
   ++picture_.serial;
 }
@@ -126,6 +146,7 @@ void Viewer::makeCodes() {
 bool Viewer::isFinished() const { return shown_.finished && shown_.request == request_; }
 
 std::string Viewer::set(const std::string& id, const std::string& text) {
+  if (id == kLayerControl) return showLayer(text);
   Settings changed = settings_;
   try {
     services_.set(changed, id, text);
@@ -139,6 +160,18 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
     makeCodes();
   else if (control != services_.controls.end() && control->reloads)
     load({}, true);
+  else
+    ask();
+  return {};
+}
+
+std::string Viewer::showLayer(const std::string& layer) {
+  if (std::find(kLayers.begin(), kLayers.end(), layer) == kLayers.end())
+    return fmt::format("show: '{}' is not one of {}", layer, fmt::join(kLayers, "|"));
+  const bool isTraced = layer == kLayers.front() || (shown_.result && shown_.result->aovs.contains(layer));
+  layer_ = layer;
+  if (isTraced)
+    makeCodes();
   else
     ask();
   return {};

@@ -15,6 +15,9 @@
 
 namespace whittle::view {
 
+/// The control that no option of a render has: which of false_colors.h's layers is shown.
+inline constexpr const char* kLayerControl = "show";
+
 /// What the command line knows and the model does not. All but `load` are called by the window's thread.
 struct Services {
   std::vector<Control> controls;
@@ -51,7 +54,9 @@ class Viewer : public ViewModel {
   bool hasPicture() const override { return shown_.result && shown_.request == request_; }
   const std::vector<Message>& messages() const override { return messages_; }
   const std::vector<Control>& controls() const override { return services_.controls; }
-  std::string value(const std::string& id) const override { return services_.value(settings_, id); }
+  std::string value(const std::string& id) const override {
+    return id == kLayerControl ? layer_ : services_.value(settings_, id);
+  }
   std::string set(const std::string& id, const std::string& text) override;
 
   void orbit(double right, double up) override;
@@ -98,9 +103,11 @@ class Viewer : public ViewModel {
   glm::dvec3 middle() const;
   HandCamera held(const Camera& camera) const;
   void makeCodes();
+  std::string showLayer(const std::string& layer);
 
   Services services_;
   Settings settings_;
+  std::string layer_;                   ///< that is shown, of kLayers
   std::shared_ptr<const Scene> scene_;  ///< null: none yet
   HandCamera camera_;
   bool isMoving_ = false;

@@ -148,6 +148,16 @@ TEST_F(WindowTest, ExposureTracesNothingAndACameraCompilesNothing) {
       "drag 80 40 60 40 right\ndrag 80 40 60 40 middle\nwait refined\nexpect view.programs == 0\n");
 }
 
+TEST_F(WindowTest, ShowsWhatPixelsMeet) {
+  expectPlayed(
+      "wait refined\nset show depth\nwait refined\nscreenshot depth.png\nset show normal\nscreenshot "
+      "normal.png\n"
+      "set show albedo\nset show primitive\nset show samples\nexpect view.finished == true\nset show beauty\n"
+      "expect view.finished == true\nwait refined\n");
+  EXPECT_NE(read("depth.png").bytes, read("normal.png").bytes);
+  EXPECT_NE(play("set show nothing\n").err.find("'nothing' is not one of beauty|depth"), std::string::npos);
+}
+
 TEST_F(WindowTest, AnySize) {
   expectPlayed(
       "wait picture\nresize 1 1\nwait 0.3\nresize 200 100\nwait 0.3\nresize 1280 720\nwait refined\n");

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -244,8 +245,8 @@ void Window::drawPicture() {
   const int filter = isLinear_ || scale != std::floor(scale) ? GL_LINEAR : GL_NEAREST;
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_)),
-                 {picture_.x, picture_.y}, {picture_.x + picture_.width, picture_.y + picture_.height});
+  draw->AddImage(std::bit_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_)), {picture_.x, picture_.y},
+                 {picture_.x + picture_.width, picture_.y + picture_.height});
 }
 
 void Window::drawPanels(float width, float height) {

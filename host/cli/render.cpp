@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdio>
 #include <future>
+#include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 
 #include "cl/device.h"
 #include "cl/kernel_cache.h"
@@ -20,6 +22,7 @@
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/speech.h"
+#include "render/explanation.h"
 #include "render/peak_memory.h"
 #include "render/renderer.h"
 #include "report/profile_table.h"
@@ -39,6 +42,8 @@ struct RenderOptions {
   std::vector<std::filesystem::path> outputs;
   std::vector<std::string> aovTexts;
   std::filesystem::path stats, trace, reference, kernelFolder;
+  std::optional<glm::ivec2> explain;  ///< a pixel
+  bool json = false;
   bool profile = false;
 
   std::vector<AovOutput> aovs;  ///< aovTexts, parsed
@@ -46,7 +51,8 @@ struct RenderOptions {
 
 /// Fills in the default output and refuses, before anything is loaded, what could not be written at the end.
 OutputCheck checkOutputs(RenderOptions& o) {
-  if (o.outputs.empty() && o.stats.empty() && o.trace.empty() && o.aovTexts.empty() && !o.profile)
+  if (o.outputs.empty() && o.stats.empty() && o.trace.empty() && o.aovTexts.empty() && !o.profile &&
+      !o.explain)
     o.outputs.emplace_back(o.scene.file.stem().string() + ".png");
   OutputCheck check(o.settings.width, o.settings.height);
   for (const auto& file : {o.scene.file, std::filesystem::path(o.scene.background), o.reference})
@@ -60,6 +66,16 @@ OutputCheck checkOutputs(RenderOptions& o) {
   if (!o.kernelFolder.empty() && !std::filesystem::is_directory(o.kernelFolder))
     throw InputError(fmt::format("--kernels: {} is no folder", o.kernelFolder.string()));
   return check;
+}
+
+glm::ivec2 parsePixel(const std::string& option, const std::string& word) {
+  const auto comma = word.find(',');
+  if (comma == std::string::npos)
+    throw InputError(fmt::format("{}: '{}' is no pixel; it is two whole numbers, X,Y", option, word));
+  const auto part = [&](const std::string& text) {
+    return static_cast<int>(parseWhole(option, text, 0, 65534));
+  };
+  return {part(word.substr(0, comma)), part(word.substr(comma + 1))};
 }
 
 FloatImage readReference(const RenderOptions& o) {
@@ -80,6 +96,48 @@ FloatImage readReference(const RenderOptions& o) {
   if (image.channels < 3)
     throw InputError(fmt::format("--reference: {} has no colours", o.reference.string()));
   return image;
+}
+
+/// What `work` returns; errors of kernels and devices in words that help.
+template <typename Work>
+auto explainingErrors(const RenderOptions& o, const Work& work) {
+  try {
+    return work();
+  } catch (const BuildError& e) {
+    explainBuildFailure(e, o.kernelFolder);
+  } catch (const std::invalid_argument& e) {
+    // With nothing asked for, a machine without a device is no wrong usage.
+    if (!o.settings.device.empty()) throw;
+    const auto limit = addressLimit();
+    throw std::runtime_error(
+        limit ? fmt::format(
+                    "{}; PoCL needs 1.1 GB of addresses, more with many threads, and ulimit -v leaves {}",
+                    e.what(), formatBytes(*limit))
+              : fmt::format("{}; a CPU device needs only pocl-opencl-icd or your system's PoCL package",
+                            e.what()));
+  }
+}
+
+/// The pixel's ray trees, on standard output.
+void tellExplanation(const Scene& scene, const RenderOptions& o) {
+  const auto [x, y] = std::pair(o.explain->x, o.explain->y);
+  if (x >= o.settings.width || y >= o.settings.height)
+    throw InputError(fmt::format("--explain: {},{} lies outside the picture of {}×{}", x, y, o.settings.width,
+                                 o.settings.height));
+  RenderHooks hooks;
+  if (!o.kernelFolder.empty()) hooks.kernelFolder = o.kernelFolder;
+  hooks.compiler = "/proc/self/exe";
+  ProgressBar bar(o.scene.quiet);
+  hooks.phase = [&](const std::string& text) { bar.phase(text); };
+  const Explanation explanation{
+      x, y, explainingErrors(o, [&] { return RenderSession().explain(scene, o.settings, x, y, hooks); })};
+  bar.clear();
+  if (o.json)
+    tellJson(explanationToJson(explanation, scene)
+                 .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+             "\n");
+  else
+    tell(explanationText(explanation, scene, o.settings));
 }
 
 RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const FloatImage& reference,
@@ -108,21 +166,7 @@ RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const Floa
     bar.clear();
     note(text);
   };
-  try {
-    return render(scene, o.settings, hooks);
-  } catch (const BuildError& e) {
-    explainBuildFailure(e, o.kernelFolder);
-  } catch (const std::invalid_argument& e) {
-    // With nothing asked for, a machine without a device is no wrong usage.
-    if (!o.settings.device.empty()) throw;
-    const auto limit = addressLimit();
-    throw std::runtime_error(
-        limit ? fmt::format(
-                    "{}; PoCL needs 1.1 GB of addresses, more with many threads, and ulimit -v leaves {}",
-                    e.what(), formatBytes(*limit))
-              : fmt::format("{}; a CPU device needs only pocl-opencl-icd or your system's PoCL package",
-                            e.what()));
-  }
+  return explainingErrors(o, [&] { return render(scene, o.settings, hooks); });
 }
 
 ImageMetadata pictureMetadata(const RenderOptions& o, const Stats& stats) {
@@ -215,6 +259,10 @@ int runRender(RenderOptions& o) {
   for (const auto& file : notices.files) check.reads(file);
   if (trace) trace->phase("load", start);
   const double load = since(start);
+  if (o.explain) {
+    tellExplanation(scene, o);
+    if (o.outputs.empty() && o.aovs.empty() && o.stats.empty() && o.trace.empty() && !o.profile) return 0;
+  }
   RenderResult result = renderWithProgress(scene, o, reference, trace.get());
   result.stats.time.load = load;
   result.stats.phases.insert(result.stats.phases.begin(), {"load", steadySeconds(start), load});
@@ -254,6 +302,13 @@ void addRender(CLI::App& app, int& status) {
           "every kernel launch as Chrome/Perfetto JSON; -: on standard output");
   c->add_flag("--quiet", o->scene.quiet,
               "no progress, notes or summary; warnings, errors and --profile only");
+  addText(*c, "--explain",
+          [&pixel = o->explain](const std::string& word) { pixel = parsePixel("--explain", word); },
+          {"X,Y",
+           "say why a pixel (from the top left) is as it is: its rays, what each met, carried and brought, "
+           "which shadow rays were blocked; no picture then unless one is asked for",
+           ""});
+  c->add_flag("--json", o->json, "--explain as JSON");
   addPictureOptions(*c, o->settings, o->scene);
   addErrorOptions(*c, o->settings);
   addFile(*c, "--reference", o->reference, "FILE",

@@ -3,6 +3,7 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 
@@ -169,11 +170,6 @@ struct RenderSession::State {
     }
   };
 
-  static PictureKey pictureKeyOf(const Settings& s, const Decisions& decisions) {
-    return {s.width, s.height, filmPlanes(s.raysPerPixel, decisions.features.has(Feature::COVERAGE)),
-            decisions.features.has(Feature::AOVS), s.adaptive};
-  }
-
   Kept<OpenDevice, DeviceKey> device;
   Kept<PictureBuffers, PictureKey> picture;
   Kept<DeviceScene, SceneKey> scene;
@@ -186,6 +182,14 @@ struct RenderSession::State {
     scene.value.reset();
     queues.value.reset();
   }
+
+  struct Prepared;
+  Prepared prepare(const Scene& from, const Settings& settings, const RenderHooks& hooks, PhaseLog& log);
+  OpenDevice& openFor(const Settings& settings, const RenderHooks& hooks);
+  void providePicture(Compute& compute, const Settings& settings, const Decisions& decisions);
+  void provideScene(Compute& compute, const Scene& from, const Settings& settings, const Decisions& decisions,
+                    const RenderHooks& hooks, PhaseLog& log);
+  void provideQueues(Compute& compute, const Settings& settings, const Decisions& decisions, PhaseLog& log);
 };
 
 RenderSession::RenderSession() : state_(std::make_unique<State>()) {}
@@ -202,85 +206,140 @@ void RenderSession::close() {
 
 const RenderWork& RenderSession::work() const { return state_->work; }
 
-RenderResult RenderSession::render(const Scene& scene, const Settings& settings, const RenderHooks& hooks) {
-  State& kept = *state_;
-  kept.work = {};
-  PhaseLog log(hooks.trace);
-  checkSettings(settings);
-  findCamera(scene, settings.camera);  // an unknown one is said before a device is opened
+/// What stands before the first ray.
+struct RenderSession::State::Prepared {
+  OpenDevice& device;
+  Decisions decisions;
+  std::vector<cl::Program> programs;
+  double compileSeconds = 0.0, pictureSeconds = 0.0;
+};
 
-  say(hooks, kFirstPhase);
-  const auto opening = Clock::now();
-  const State::DeviceKey deviceKey{settings.device, settings.threads, hooks.timeStages};
-  if (!hooks.device && !kept.device.serves(deviceKey)) {
-    kept.dropBuffers();
-    kept.work.device = true;
-    kept.device.remake(deviceKey, [&] {
-      return OpenDevice{openDevice(settings, Compute::Memory::Real,
-                                   hooks.timeStages ? Compute::Launches::Timed : Compute::Launches::Untimed)};
-    });
-  }
-  OpenDevice& device = hooks.device ? *hooks.device : *kept.device.value;
-  Compute& compute = device.compute;
-  log.end("open the device", opening);
-  std::optional<tbb::global_control> threads;
-  if (settings.threads > 0) threads.emplace(tbb::global_control::max_allowed_parallelism, settings.threads);
-  const Decisions decisions =
-      log.time("decide what is needed", [&] { return decide(scene, settings, compute.device()); });
+OpenDevice& RenderSession::State::openFor(const Settings& settings, const RenderHooks& hooks) {
+  const DeviceKey wanted{settings.device, settings.threads, hooks.timeStages};
+  if (hooks.device) return *hooks.device;
+  if (device.serves(wanted)) return *device.value;
+  dropBuffers();
+  work.device = true;
+  return device.remake(wanted, [&] {
+    return OpenDevice{openDevice(settings, Compute::Memory::Real,
+                                 hooks.timeStages ? Compute::Launches::Timed : Compute::Launches::Untimed)};
+  });
+}
 
-  say(hooks, "compiling kernels");
-  const auto compiling = Clock::now();
-  const std::size_t programsBefore = device.programs.size();
-  auto compiled = std::async(std::launch::async,
-                             [&] { return compileKernels(device, settings, decisions, hooks, compiling); });
-  const auto allocating = Clock::now();
-  const State::PictureKey pictureKey = State::pictureKeyOf(settings, decisions);
-  kept.work.picture = !kept.picture.serves(pictureKey);
-  if (kept.work.picture)
-    kept.picture.remake(pictureKey,
-                        [&] { return allocatePicture(compute, settings, decisions, Compute::Memory::Real); });
+/// An empty film, and the order of its pixels.
+void RenderSession::State::providePicture(Compute& compute, const Settings& settings,
+                                          const Decisions& decisions) {
+  const PictureKey wanted{settings.width, settings.height,
+                          filmPlanes(settings.raysPerPixel, decisions.features.has(Feature::COVERAGE)),
+                          decisions.features.has(Feature::AOVS), settings.adaptive};
+  work.picture = !picture.serves(wanted);
+  if (work.picture)
+    picture.remake(wanted,
+                   [&] { return allocatePicture(compute, settings, decisions, Compute::Memory::Real); });
   else
-    compute.fillZero(kept.picture.value->film);
-  const PictureBuffers& picture = *kept.picture.value;
-  const double pictureSeconds = PhaseLog::secondsSince(allocating);
-  const State::SceneKey sceneKey{decisions.features.bits() & kSceneBufferFeatures, settings.keepAllFeatures,
-                                 settings.mirrorRoughness};
-  kept.work.scene = !kept.scene.serves(sceneKey);
-  if (kept.work.scene)
-    kept.scene.remake(sceneKey, [&] {
-      TriTree tree = log.time("build tree", [&] { return buildTree(scene, decisions); });
+    compute.fillZero(picture.value->film);
+}
+
+void RenderSession::State::provideScene(Compute& compute, const Scene& from, const Settings& settings,
+                                        const Decisions& decisions, const RenderHooks& hooks, PhaseLog& log) {
+  const SceneKey wanted{decisions.features.bits() & kSceneBufferFeatures, settings.keepAllFeatures,
+                        settings.mirrorRoughness};
+  work.scene = !scene.serves(wanted);
+  if (work.scene)
+    scene.remake(wanted, [&] {
+      TriTree tree = log.time("build tree", [&] { return buildTree(from, decisions); });
       return log.time("upload", [&] {
-        return uploadScene(compute, scene, decisions.pruned, std::move(tree), decisions.features,
+        return uploadScene(compute, from, decisions.pruned, std::move(tree), decisions.features,
                            hooks.consumed);
       });
     });
-  const State::QueueKey queueKey{decisions.features.bits() & kQueueFeatures, queueCapacity(settings),
-                                 decisions.compactChunk};
-  kept.work.queues = !kept.queues.serves(queueKey);
-  if (kept.work.queues)
-    kept.queues.remake(queueKey, [&] {
+}
+
+void RenderSession::State::provideQueues(Compute& compute, const Settings& settings,
+                                         const Decisions& decisions, PhaseLog& log) {
+  const QueueKey wanted{decisions.features.bits() & kQueueFeatures, queueCapacity(settings),
+                        decisions.compactChunk};
+  work.queues = !queues.serves(wanted);
+  if (work.queues)
+    queues.remake(wanted, [&] {
       return log.time("allocate queues", [&] {
-        return RayQueues(compute, decisions.features, queueKey.capacity, decisions.compactChunk);
+        return RayQueues(compute, decisions.features, wanted.capacity, decisions.compactChunk);
       });
     });
-  const Compiled built = compiled.get();
+}
+
+RenderSession::State::Prepared RenderSession::State::prepare(const Scene& from, const Settings& settings,
+                                                             const RenderHooks& hooks, PhaseLog& log) {
+  work = {};
+  checkSettings(settings);
+  findCamera(from, settings.camera);  // an unknown one is said before a device is opened
+  say(hooks, kFirstPhase);
+  const auto opening = Clock::now();
+  OpenDevice& open = openFor(settings, hooks);
+  log.end("open the device", opening);
+  Decisions decisions =
+      log.time("decide what is needed", [&] { return decide(from, settings, open.compute.device()); });
+
+  say(hooks, "compiling kernels");
+  const auto compiling = Clock::now();
+  const std::size_t programsBefore = open.programs.size();
+  auto compiled = std::async(std::launch::async,
+                             [&] { return compileKernels(open, settings, decisions, hooks, compiling); });
+  const auto allocating = Clock::now();
+  providePicture(open.compute, settings, decisions);
+  const double pictureSeconds = PhaseLog::secondsSince(allocating);
+  provideScene(open.compute, from, settings, decisions, hooks, log);
+  provideQueues(open.compute, settings, decisions, log);
+  Compiled built = compiled.get();
   log.add("compile kernels", compiling, built.seconds);
-  kept.work.programs = static_cast<int>(device.programs.size() - programsBefore);
+  work.programs = static_cast<int>(open.programs.size() - programsBefore);
+  return {open, std::move(decisions), std::move(built.programs), built.seconds, pictureSeconds};
+}
+
+namespace {
+
+/// What a wavefront is set up with; refers to the scene and the features.
+WavefrontSetup setupOf(const Scene& scene, const DeviceScene& onDevice, const Settings& settings,
+                       const Decisions& decisions, const RenderHooks& hooks) {
+  const Camera& camera = hooks.camera ? *hooks.camera : scene.cameras[decisions.camera];
+  return {decisions.features,
+          onDevice,
+          cameraToDevice(camera, settings),
+          constantsToDevice(scene, camera, settings),
+          static_cast<std::uint32_t>(settings.bounces),
+          static_cast<std::uint32_t>(mostHits(decisions.features, settings)),
+          decisions.compactChunk};
+}
+
+StageRunner runnerOf(Compute& compute, const std::vector<cl::Program>& programs, const Decisions& decisions,
+                     const RayQueues& queues) {
+  return {compute, programs, decisions.workGroup,
+          LaunchWidths{decisions.features.has(Feature::PACKETS), decisions.compactChunk},
+          queues.entryBytes()};
+}
+
+/// For the tree builder and whatever else runs on the host's threads.
+std::unique_ptr<tbb::global_control> limitThreads(int threads) {
+  if (threads <= 0) return nullptr;
+  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+}
+
+}  // namespace
+
+RenderResult RenderSession::render(const Scene& scene, const Settings& settings, const RenderHooks& hooks) {
+  State& kept = *state_;
+  PhaseLog log(hooks.trace);
+  const auto threads = limitThreads(settings.threads);
+  const State::Prepared prepared = kept.prepare(scene, settings, hooks, log);
+  const Decisions& decisions = prepared.decisions;
+  Compute& compute = prepared.device.compute;
+  const PictureBuffers& picture = *kept.picture.value;
 
   say(hooks, kLastPhase);
   const auto rendering = Clock::now();
-  StageRunner stages(compute, built.programs, decisions.workGroup,
-                     {decisions.features.has(Feature::PACKETS), decisions.compactChunk},
-                     kept.queues.value->entryBytes());
+  StageRunner stages = runnerOf(compute, prepared.programs, decisions, *kept.queues.value);
   stages.record(hooks.trace);
-  const Camera& camera = hooks.camera ? *hooks.camera : scene.cameras[decisions.camera];
-  const WavefrontSetup setup{decisions.features,
-                             *kept.scene.value,
-                             cameraToDevice(camera, settings),
-                             constantsToDevice(scene, camera, settings),
-                             static_cast<std::uint32_t>(settings.bounces),
-                             static_cast<std::uint32_t>(mostHits(decisions.features, settings)),
-                             decisions.compactChunk};
+  const WavefrontSetup setup = setupOf(scene, *kept.scene.value, settings, decisions, hooks);
   Wavefront wavefront(compute, stages, *kept.queues.value, setup, picture.film, picture.aovs);
   SamplingLoop loop(compute, wavefront, settings, hooks,
                     FilmBuffers{static_cast<std::size_t>(settings.width) * settings.height, picture.order,
@@ -300,9 +359,9 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
     kept.scene.value->report(stats.buffers);
     kept.queues.value->report(stats.buffers);
     picture.report(stats.buffers);
-    stats.time.compile = built.seconds;
+    stats.time.compile = prepared.compileSeconds;
     stats.time.build = log.seconds("build tree");
-    stats.time.upload = pictureSeconds + log.seconds("upload") + log.seconds("allocate queues");
+    stats.time.upload = prepared.pictureSeconds + log.seconds("upload") + log.seconds("allocate queues");
     stats.time.render = loop.seconds();
     stats.phases = log.phases();
     return result;
@@ -317,6 +376,42 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
   }
   log.end("render", rendering);
   return resultSoFar();
+}
+
+std::vector<RayTree> RenderSession::explain(const Scene& scene, const Settings& settings, int x, int y,
+                                            const RenderHooks& hooks, int samples) {
+  State& kept = *state_;
+  PhaseLog log(nullptr);
+  const auto threads = limitThreads(settings.threads);
+  const State::Prepared prepared = kept.prepare(scene, settings, hooks, log);
+  const Decisions& decisions = prepared.decisions;
+  Compute& compute = prepared.device.compute;
+  StageRunner stages = runnerOf(compute, prepared.programs, decisions, *kept.queues.value);
+  const WavefrontSetup setup = setupOf(scene, *kept.scene.value, settings, decisions, hooks);
+  const Buffer& film = kept.picture.value->film;
+  const Buffer none;
+  Wavefront wavefront(compute, stages, *kept.queues.value, setup, film, none);
+  const std::vector<std::uint32_t> pixel(FILM_BLOCK,
+                                         static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x));
+  const Buffer order = compute.upload("explained pixel", pixel);
+  std::vector<RayTree> trees;
+  for (int sample = 0; sample < std::min(samples, settings.raysPerPixel); ++sample) {
+    compute.fillZero(film);
+    RayRecorder recorder(compute, *kept.queues.value, *kept.scene.value, decisions.features);
+    wavefront.observe(&recorder);
+    wavefront.trace({order, none, 1, static_cast<std::uint32_t>(sample), 1},
+                    {[](double, bool) { return true; }});
+    RayTree tree{recorder.rays(), glm::vec3(0)};
+    const std::size_t planeBytes = static_cast<std::size_t>(settings.width) * settings.height * sizeof(float);
+    for (int c = 0; c < 3; ++c)
+      compute.read(film, static_cast<std::size_t>(c) * planeBytes, sizeof(float), &tree.radiance[c]);
+    for (RayRecord& ray : tree.rays) {
+      if (ray.hit) ray.hit->material = scene.triangles[ray.hit->primitive].material;
+      for (ShadowRecord& shadow : ray.shadows) shadow.light = decisions.pruned.lights[shadow.light];
+    }
+    trees.push_back(std::move(tree));
+  }
+  return trees;
 }
 
 RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks) {

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "render/renderer.h"
+#include "wavefront/ray_recorder.h"
 
 namespace whittle {
 
@@ -17,6 +19,15 @@ struct RenderWork {
   bool picture = false;  ///< allocated
 };
 
+/// The rays of one sample. Sums of throughput times radiance over them are the sample's radiance, but for
+/// rounding.
+struct RayTree {
+  std::vector<RayRecord> rays;
+  glm::vec3 radiance{0.0F};  ///< as the film got it, W/(m² sr)
+};
+
+inline constexpr int kAllSamples = 1 << 30;
+
 class RenderSession {
  public:
   RenderSession();
@@ -28,6 +39,11 @@ class RenderSession {
   /// same as last time with other cameras at most, unless sceneChanged was called. What a throw leaves
   /// behind is good for the next render.
   RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks = {});
+  /// What became of the rays of a pixel (x from the left, y from the top), sample by sample: the kernels'
+  /// numbers. Lights are numbered as in the scene, materials as its triangles'. `samples`: at most so many of
+  /// settings.raysPerPixel. Throws as render.
+  std::vector<RayTree> explain(const Scene& scene, const Settings& settings, int x, int y,
+                               const RenderHooks& hooks = {}, int samples = kAllSamples);
   /// The next scene differs from the last in more than its cameras.
   void sceneChanged();
   /// Everything on the device is let go and the device closed, as after it was lost.

@@ -63,6 +63,30 @@ void LiveRender::run(std::string doing, std::function<void()> work) {
   changed_.notify_all();
 }
 
+void LiveRender::take(const std::shared_ptr<const Scene>& scene) {
+  if (onDevice_ != scene) session_.sceneChanged();
+  onDevice_ = scene;
+}
+
+void LiveRender::explain(Request request, int x, int y, std::function<void(std::vector<RayTree>)> done) {
+  auto work = [this, request = std::move(request), x, y, done = std::move(done)] {
+    take(request.scene);
+    RenderHooks hooks;
+    hooks.kernelFolder = kernelFolder_;
+    hooks.compiler = compiler_;
+    hooks.camera = &request.camera;
+    Settings settings = request.settings;
+    settings.keepFeatures |= kOfCamera;
+    done(session_.explain(*request.scene, settings, x, y, hooks, 1));
+  };
+  {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back({"following the rays of a pixel", std::move(work)});
+    stopped_ = true;
+  }
+  changed_.notify_all();
+}
+
 void LiveRender::stop() {
   const std::lock_guard lock(mutex_);
   next_.reset();
@@ -130,8 +154,7 @@ RenderHooks LiveRender::hooksFor(std::uint64_t number, bool coarse) {
 }
 
 void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
-  if (onDevice_ != request.scene) session_.sceneChanged();
-  onDevice_ = request.scene;
+  take(request.scene);
   const Scene& scene = *request.scene;
   Settings settings = request.settings;
   settings.keepFeatures |= kOfCamera;

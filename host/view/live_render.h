@@ -57,6 +57,9 @@ class LiveRender {
 
   /// From now on this is rendered; what is under way ends between two launches. Returns the request's number.
   std::uint64_t ask(Request request);
+  /// The rays of a pixel of this request, when what is under way has ended or been cut off; `done` gets them
+  /// on the render's thread. A request that was cut off has to be asked for again.
+  void explain(Request request, int x, int y, std::function<void(std::vector<RayTree>)> done);
   /// Work that has to happen on the render's thread, before the requests that follow: loading a scene.
   /// `doing` is shown meanwhile. What it throws becomes Progress::error.
   void run(std::string doing, std::function<void()> work);
@@ -77,6 +80,7 @@ class LiveRender {
   void show(RenderResult result, std::uint64_t number, bool coarse, bool finished);
   bool isWanted(std::uint64_t number) const;
   void fail(const std::string& text);
+  void take(const std::shared_ptr<const Scene>& scene);
 
   std::function<void()> wake_;
   std::filesystem::path compiler_;

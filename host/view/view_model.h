@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "view/live_render.h"
+#include "view/ray_drawing.h"
 
 namespace whittle::view {
 
@@ -89,6 +90,20 @@ class ViewModel {
   /// As options of the command line, and back: returns what is wrong with them, or nothing.
   virtual std::string cameraText() const = 0;
   virtual std::string pasteCamera(const std::string& text) = 0;
+  /// Asks for the rays of what lies at (x, y), in [0, 1]² from the picture's top left; the first sample's.
+  virtual void explain(double x, double y) = 0;
+  virtual void closeExplanation() = 0;
+  struct Explained {
+    int x = 0, y = 0;  ///< the pixel
+    RayTree tree;
+    std::vector<std::string> titles;              ///< of each ray
+    std::vector<std::vector<std::string>> lines;  ///< and all there is to say of it
+    std::vector<DrawnRay> drawn;
+    std::string sum;  ///< of all shares, and what the pixel's sample has
+  };
+  /// Null: none is asked for, or it is not there yet.
+  virtual const Explained* explained() const = 0;
+
   /// While a hand is on the camera pictures are coarse first.
   virtual void setMoving(bool isMoving) = 0;
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "render/explanation.h"
 #include "report/stats.h"
 #include "scene/input_error.h"
 #include "view/false_colors.h"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::size_t kMessages = 200;
+constexpr std::chrono::milliseconds kLookEvery{400};  ///< at the scene's file
 /// Settings that only change how radiance becomes codes.
 bool isOfCodes(const std::string& id) { return id == "exposure" || id == "tone-map"; }
 
@@ -74,7 +76,11 @@ void Viewer::load(const std::filesystem::path& file, bool keepsCamera) {
     Loaded loaded;
     loaded.before = loaded.settings = settings;
     loaded.keepsCamera = keepsCamera;
-    loaded.scene = std::make_shared<const Scene>(services_.load(file, loaded.settings, loaded.notes));
+    try {
+      loaded.scene = std::make_shared<const Scene>(services_.load(file, loaded.settings, loaded.notes));
+    } catch (const std::exception& e) {
+      loaded.problem = e.what();
+    }
     const std::lock_guard lock(mutex_);
     loaded_ = std::move(loaded);
   });
@@ -92,29 +98,93 @@ void Viewer::settle(const Loaded& loaded) {
 }
 
 void Viewer::takeOver(Loaded loaded) {
+  if (!loaded.scene) {
+    say(true, loaded.problem);
+    if (!isFinished()) ask();  // what was under way goes on
+    return;
+  }
   const bool isFirst = !scene_;
   scene_ = loaded.scene;
   settle(loaded);
   for (auto& text : loaded.notes) say(false, std::move(text));
+  file_ = scene_->file;
+  if (!loaded.keepsCamera) written_ = {};
   if (isFirst || !loaded.keepsCamera) camera_ = held(scene_->cameras[findCamera(*scene_, settings_.camera)]);
   ask();
 }
 
-void Viewer::ask() {
-  if (!scene_) return;
+Request Viewer::request() const {
   Settings settings = settings_;
   settings.aovs = layer_ != kLayers.front();
-  request_ = live_.ask({scene_, camera_.camera(), settings, isMoving_});
+  return {scene_, camera_.camera(), settings, isMoving_};
+}
+
+void Viewer::ask() {
+  explained_.reset();  // of another picture
+  if (scene_) request_ = live_.ask(request());
+}
+
+void Viewer::explain(double x, double y) {
+  if (!scene_ || !(x >= 0 && x < 1 && y >= 0 && y < 1)) return;
+  Followed followed{scene_,
+                    camera_.camera(),
+                    aspect(),
+                    static_cast<int>(x * settings_.width),
+                    static_cast<int>(y * settings_.height),
+                    settings_.raysPerPixel,
+                    {}};
+  const bool isDone = isFinished();
+  live_.explain(request(), followed.x, followed.y, [this, followed](std::vector<RayTree> trees) mutable {
+    followed.tree = std::move(trees.at(0));
+    const std::lock_guard lock(mutex_);
+    followed_ = std::move(followed);
+  });
+  if (!isDone) ask();  // it was cut off
+}
+
+ViewModel::Explained Viewer::explainedOf(Followed f) {
+  Explained e{f.x, f.y, std::move(f.tree), {}, {}, {}, {}};
+  for (std::size_t i = 0; i < e.tree.rays.size(); ++i) {
+    e.titles.push_back(rayTitle(e.tree, i, *f.scene));
+    e.lines.push_back(rayLines(e.tree, i, *f.scene));
+  }
+  e.drawn = drawnRays(e.tree, *f.scene, f.camera, f.aspect);
+  const glm::dvec3 sum = sumOf(e.tree);
+  e.sum = fmt::format("sum of {} rays: {:.6g} {:.6g} {:.6g}; the {} has {:.6g} {:.6g} {:.6g}",
+                      e.tree.rays.size(), sum.x, sum.y, sum.z,
+                      f.samples > 1 ? fmt::format("first of {} samples", f.samples) : "pixel",
+                      e.tree.radiance.x, e.tree.radiance.y, e.tree.radiance.z);
+  return e;
+}
+
+/// Reads the scene again once its file was written and has been left alone since the last look.
+void Viewer::lookAtFile() {
+  const auto now = std::chrono::steady_clock::now();
+  if (!scene_ || file_.empty() || now - lookedAt_ < kLookEvery) return;
+  lookedAt_ = now;
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file_, error);
+  if (error) return;  // between two versions, maybe
+  if (written_ == std::filesystem::file_time_type{}) written_ = writing_ = time;
+  if (time != written_ && time == writing_) {
+    written_ = time;
+    reload();
+  }
+  writing_ = time;
 }
 
 bool Viewer::update() {
   bool isNew = false;
+  lookAtFile();
   std::optional<Loaded> loaded;
+  std::optional<Followed> followed;
   {
     const std::lock_guard lock(mutex_);
     loaded.swap(loaded_);
+    followed.swap(followed_);
   }
   if (loaded) takeOver(std::move(*loaded)), isNew = true;
+  if (followed && followed->scene == scene_) explained_ = explainedOf(std::move(*followed)), isNew = true;
   Shown shown = live_.shown();
   if (shown.result != shown_.result || shown.finished != shown_.finished) {
     shown_ = std::move(shown);
@@ -298,7 +368,8 @@ std::string Viewer::stateJson() const {
                    {"height", picture_.height},
                    {"programs", p.work.programs},
                    {"scene", p.work.scene ? 1 : 0},
-                   {"messages", messages_.size()}};
+                   {"messages", messages_.size()},
+                   {"explainedRays", explained_ ? explained_->tree.rays.size() : 0}};
   return state.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

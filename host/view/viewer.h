@@ -1,6 +1,7 @@
 // The model behind a window: settings, camera and scene, and a picture of them that is always under way.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -76,6 +77,9 @@ class Viewer : public ViewModel {
   std::string cameraText() const override;
   std::string pasteCamera(const std::string& text) override;
   void setMoving(bool isMoving) override;
+  void explain(double x, double y) override;
+  void closeExplanation() override { explained_.reset(); }
+  const Explained* explained() const override { return explained_ ? &*explained_ : nullptr; }
 
   void open(const std::filesystem::path& file) override;
   void reload() override;
@@ -91,10 +95,21 @@ class Viewer : public ViewModel {
     Settings before, settings;  ///< what loading was given, and what it made of that
     std::vector<std::string> notes;
     bool keepsCamera = false;
+    std::string problem;  ///< why there is no scene
   };
   void load(const std::filesystem::path& file, bool keepsCamera);
   void takeOver(Loaded loaded);
   void settle(const Loaded& loaded);
+  Request request() const;
+  /// A pixel's rays, fresh from the render's thread.
+  struct Followed {
+    std::shared_ptr<const Scene> scene;
+    Camera camera;
+    double aspect = 1;
+    int x = 0, y = 0, samples = 1;
+    RayTree tree;
+  };
+  static Explained explainedOf(Followed followed);
   void ask();
   void cameraMoved();
   void say(bool isError, std::string text);
@@ -103,6 +118,7 @@ class Viewer : public ViewModel {
   glm::dvec3 middle() const;
   HandCamera held(const Camera& camera) const;
   void makeCodes();
+  void lookAtFile();
   std::string showLayer(const std::string& layer);
 
   Services services_;
@@ -117,8 +133,15 @@ class Viewer : public ViewModel {
   std::string codesOf_;  ///< the exposure and tone map that the codes were made with
   std::vector<Message> messages_;
   std::string lastError_;
-  std::mutex mutex_;  ///< of loaded_
+  /// The scene's file, and when it was written as far as is known; an exporter that is still at it is waited
+  /// for.
+  std::filesystem::path file_;
+  std::filesystem::file_time_type written_{}, writing_{};
+  std::chrono::steady_clock::time_point lookedAt_{};
+  std::optional<Explained> explained_;
+  std::mutex mutex_;  ///< of loaded_ and followed_
   std::optional<Loaded> loaded_;
+  std::optional<Followed> followed_;
   LiveRender live_;  ///< last: its thread uses services_ and loaded_
 };
 

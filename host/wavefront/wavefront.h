@@ -12,6 +12,7 @@
 #include "kernels/shared/layout.h"
 #include "wavefront/device_scene.h"
 #include "wavefront/ray_queues.h"
+#include "wavefront/ray_recorder.h"
 #include "wavefront/stage_runner.h"
 
 namespace whittle {
@@ -60,6 +61,9 @@ class Wavefront {
   /// them, or, where it was told to stop, whole film blocks. The picture's bits do not depend on how samples
   /// are split into passes.
   std::uint32_t trace(const TracePass& pass, const KeepGoing& keepGoing);
+
+  /// Tells it what becomes of every ray, which takes long; null: nobody.
+  void observe(WavefrontObserver* observer) { observer_ = observer; }
 
   const RayTally& tally() const { return tally_; }
   std::uint32_t nonFinite();
@@ -112,6 +116,7 @@ class Wavefront {
   std::uint32_t batchesDone_ = 0;
   const Buffer* radiance_ = nullptr;  ///< where the segment's entries put theirs
   RayTally tally_;
+  WavefrontObserver* observer_ = nullptr;
 };
 
 }  // namespace whittle

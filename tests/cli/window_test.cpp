@@ -7,7 +7,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "run_whittle.h"
 
@@ -158,6 +160,13 @@ TEST_F(WindowTest, ShowsWhatPixelsMeet) {
   EXPECT_NE(play("set show nothing\n").err.find("'nothing' is not one of beauty|depth"), std::string::npos);
 }
 
+TEST_F(WindowTest, AClickShowsTheRaysOfAPixel) {
+  expectPlayed(
+      "wait refined\nclick 88 60\nwait 1\nexpect view.explainedRays > 1\nscreenshot rays.png\nkey Escape\n"
+      "expect view.explainedRays == 0\nexpect view.finished == true\nset bounces 2\nclick 20 20\nwait "
+      "refined\n");
+}
+
 TEST_F(WindowTest, AnySize) {
   expectPlayed(
       "wait picture\nresize 1 1\nwait 0.3\nresize 200 100\nwait 0.3\nresize 1280 720\nwait refined\n");
@@ -170,6 +179,30 @@ TEST_F(WindowTest, BadFilesAreSaidAndEndNothing) {
       "set bounces 2\nwait refined\nexpect stats.settings.bounces == 2\n");
   expectPlayed("wait 0.3\ndrop " + scene("mirror.glb") + "\nwait refined\nexpect stats.rays.primary > 0\n",
                kSmall, "");
+}
+
+/// With the camera as it is: what an artist sees who exports again and again.
+TEST_F(WindowTest, AWrittenFileIsReadAgain) {
+  const auto copyTo = [&](const char* from) {
+    std::filesystem::copy_file(scene(from), folder_ / "scene.glb",
+                               std::filesystem::copy_options::overwrite_existing);
+  };
+  copyTo("mirror.glb");
+  std::ofstream(folder_ / "script")
+      << "wait refined\nprint stats.scene.triangles\nscreenshot first.png\nwait 4\n"
+         "wait refined\nprint stats.scene.triangles\nquit\n";
+  std::vector<std::string> args{"view", "scene.glb", "--script", "script"};
+  args.insert(args.end(), kSmall.begin(), kSmall.end());
+  Process window(args, {folder_.path(), {{"DISPLAY", display_.name}, {"LIBGL_ALWAYS_SOFTWARE", "1"}}});
+  for (int i = 0; i < 600 && !std::filesystem::exists(folder_ / "first.png"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  std::this_thread::sleep_for(std::chrono::seconds(1));  // it has looked at the file
+  copyTo("cornell_box.glb");
+  const Outcome run = window.finish();
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto first = run.out.find("triangles = "), second = run.out.rfind("triangles = ");
+  ASSERT_NE(first, second) << run.out;
+  EXPECT_NE(std::atoi(run.out.c_str() + first + 12), std::atoi(run.out.c_str() + second + 12)) << run.out;
 }
 
 TEST_F(WindowTest, ClosesWhileItCompiles) {

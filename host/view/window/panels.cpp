@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 
 #include "view/window/style.h"
 
@@ -246,6 +247,7 @@ void features(const Stats& stats) {
 constexpr const char* kKeys[][2] = {
     {"left drag", "orbit about what is under the mouse"},
     {"middle drag, Shift + left", "pan"},
+    {"click", "the rays of a pixel: a list, and lines over the picture"},
     {"wheel", "zoom towards what is under the mouse"},
     {"right drag", "look around"},
     {"W A S D, Q E", "fly; down, up"},
@@ -322,6 +324,58 @@ void statisticsPanel(const ViewModel& model) {
   if (ImGui::CollapsingHeader("Error against time", ImGuiTreeNodeFlags_DefaultOpen)) errorPlot(stats);
   if (ImGui::CollapsingHeader("Memory by buffer")) buffers(stats);
   if (ImGui::CollapsingHeader("Needed and left out")) features(stats);
+}
+
+namespace {
+
+/// ImGui breaks lines at the points of numbers; this breaks at blanks alone.
+void wordsWrapped(const std::string& text) {
+  const float room = ImGui::GetContentRegionAvail().x;
+  std::string line;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string longer = line.empty() ? word : fmt::format("{} {}", line, word);
+    if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > room) {
+      ImGui::TextUnformatted(line.c_str());
+      line = fmt::format("  {}", word);
+    } else {
+      line = longer;
+    }
+  }
+  ImGui::TextUnformatted(line.c_str());
+}
+
+/// The ray and its children, and which the mouse is on.
+void rayRow(const ViewModel::Explained& e, std::size_t ray, int& hovered) {
+  const ImGuiTreeNodeFlags flags =
+      ImGuiTreeNodeFlags_SpanAvailWidth | (ray < 4 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  ImGui::PushID(static_cast<int>(ray));
+  const bool isOpen = ImGui::TreeNodeEx("##ray", flags, "%s", e.titles[ray].c_str());
+  if (ImGui::IsItemHovered()) hovered = static_cast<int>(ray);
+  if (isOpen) {
+    for (const auto& line : e.lines[ray]) wordsWrapped(line);
+    for (std::size_t child = ray + 1; child < e.tree.rays.size(); ++child)
+      if (e.tree.rays[child].parent == static_cast<int>(ray)) rayRow(e, child, hovered);
+    ImGui::TreePop();
+  }
+  ImGui::PopID();
+}
+
+}  // namespace
+
+int explanationPanel(ViewModel& model) {
+  const ViewModel::Explained* const e = model.explained();
+  int hovered = -1;
+  if (!e) return hovered;
+  ImGui::Text("pixel %d, %d", e->x, e->y);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::GetFrameHeight());
+  if (ImGui::SmallButton("x")) {
+    model.closeExplanation();
+    return hovered;
+  }
+  wordsWrapped(e->sum);
+  if (!e->tree.rays.empty()) rayRow(*e, 0, hovered);
+  return hovered;
 }
 
 void messageLine(const ViewModel& model) {

@@ -23,6 +23,8 @@ void settingsPanel(ViewModel& model, PanelState& state);
 void statisticsPanel(const ViewModel& model);
 void cameraPanel(ViewModel& model);
 void messageLine(const ViewModel& model);
+/// A pixel's rays as a foldable list; returns the ray that the mouse is on, −1: none.
+int explanationPanel(ViewModel& model);
 void helpWindow(PanelState& state);
 
 }  // namespace whittle::view

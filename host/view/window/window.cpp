@@ -29,6 +29,8 @@ constexpr double kWheel = 1.12;
 constexpr double kRestSeconds = 0.15;
 /// How often a clock and a bar are drawn that go on by themselves.
 constexpr double kClockSeconds = 0.1;
+/// How often the model is asked where nothing happens: a scene's file may have been written.
+constexpr double kIdleSeconds = 0.5;
 
 Window& windowOf(GLFWwindow* w) { return *static_cast<Window*>(glfwGetWindowUserPointer(w)); }
 
@@ -142,7 +144,7 @@ void Window::run() {
     else if (isBusy() || wasMoving_)
       glfwWaitEventsTimeout(kClockSeconds);
     else
-      glfwWaitEvents();
+      glfwWaitEventsTimeout(kIdleSeconds);
     if (model_.update()) framesToDraw_ = kFramesAfterEvent;
     if (options_.script && !options_.script(*this)) quit();
     const bool isDue = now() - drawnAt_ >= kClockSeconds;
@@ -249,6 +251,67 @@ void Window::drawPicture() {
                  {picture_.x + picture_.width, picture_.y + picture_.height});
 }
 
+namespace {
+
+struct Stroke {
+  ImU32 color;
+  float width, dash, gap;  ///< pixels; no gap: solid
+};
+
+/// Told apart by pattern as well as by colour.
+Stroke strokeOf(Line line) {
+  switch (line) {
+    case Line::Eye:
+      return {IM_COL32_WHITE, 2, 0, 0};
+    case Line::Reflected:
+      return {kSeries[0], 2, 0, 0};
+    case Line::Refracted:
+      return {kSeries[1], 2, 10, 5};
+    case Line::Straight:
+      return {kSeries[2], 2, 2, 5};
+    case Line::Shadow:
+      return {kSeries[3], 1, 0, 0};
+    case Line::Blocked:
+      break;
+  }
+  return {IM_COL32_BLACK, 1.5F, 6, 6};
+}
+
+void drawStroke(ImDrawList& draw, ImVec2 a, ImVec2 b, const Stroke& s, float thicker) {
+  const float dx = b.x - a.x, dy = b.y - a.y, length = std::sqrt(dx * dx + dy * dy);
+  const float period = s.gap > 0 ? s.dash + s.gap : length;
+  if (!(length > 0) || !(length < 1e5F)) return;
+  for (float at = 0; at < length; at += period) {
+    const float end = std::min(length, at + (s.gap > 0 ? s.dash : length));
+    const ImVec2 from{a.x + dx * at / length, a.y + dy * at / length},
+        to{a.x + dx * end / length, a.y + dy * end / length};
+    draw.AddLine(from, to, IM_COL32(0, 0, 0, 110), s.width + thicker + 2);  // seen before anything
+    draw.AddLine(from, to, s.color, s.width + thicker);
+  }
+}
+
+}  // namespace
+
+void Window::drawRays(int emphasised) {
+  const ViewModel::Explained* const e = model_.explained();
+  if (!e) return;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.PushClipRect({picture_.x, picture_.y}, {picture_.x + picture_.width, picture_.y + picture_.height});
+  const auto at = [&](double x, double y) {
+    return ImVec2(picture_.x + static_cast<float>(x) * picture_.width,
+                  picture_.y + static_cast<float>(y) * picture_.height);
+  };
+  for (const DrawnRay& d : e->drawn) {
+    const bool isOn = static_cast<int>(d.ray) == emphasised;
+    drawStroke(draw, at(d.x0, d.y0), at(d.x1, d.y1), strokeOf(d.line), isOn ? 2.0F : 0.0F);
+    if (d.line == Line::Eye) {
+      draw.AddCircle(at(d.x0, d.y0), 7, IM_COL32_BLACK, 0, 4);
+      draw.AddCircle(at(d.x0, d.y0), 7, IM_COL32_WHITE, 0, 2);
+    }
+  }
+  draw.PopClipRect();
+}
+
 void Window::drawPanels(float width, float height) {
   const float unit = ImGui::GetFontSize() / 15, line = kLineHeight * unit;
   const bool hasRoom = width > (kSettingsWidth + kStatisticsWidth + 120) * unit;
@@ -256,6 +319,7 @@ void Window::drawPanels(float width, float height) {
   const float left = shown ? kSettingsWidth * unit : 0, right = shown ? kStatisticsWidth * unit : 0;
   picture_ = pictureRect(left, 0, std::max(1.0F, width - left - right), std::max(1.0F, height - line));
   drawPicture();
+  drawRays(hoveredRay_);
   constexpr auto kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                           ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoBringToFrontOnFocus;
   const auto panel = [&](const char* name, float x, float y, float w, float h, const auto& content) {
@@ -269,7 +333,13 @@ void Window::drawPanels(float width, float height) {
       cameraPanel(model_);
       settingsPanel(model_, panels_);
     });
-    panel("statistics", width - right, 0, right, height - line, [&] { statisticsPanel(model_); });
+    hoveredRay_ = -1;
+    panel("statistics", width - right, 0, right, height - line, [&] {
+      if (model_.explained())
+        hoveredRay_ = explanationPanel(model_);
+      else
+        statisticsPanel(model_);
+    });
   }
   if (height > line)
     panel("messages", 0, height - line, width, line, [&] {
@@ -317,6 +387,9 @@ void Window::moveCamera() {
     const ImVec2 at = inPicture(io.MousePos);
     for (int b = 0; b < 3; ++b)
       if (ImGui::IsMouseClicked(b)) model_.holdPoint(static_cast<double>(at.x), static_cast<double>(at.y));
+    if (ImGui::IsMouseClicked(0)) pressedAt_ = io.MousePos;
+    if (ImGui::IsMouseReleased(0) && pressedAt_.x == io.MousePos.x && pressedAt_.y == io.MousePos.y)
+      model_.explain(static_cast<double>(at.x), static_cast<double>(at.y));
     const bool isMoved = dx != 0 || dy != 0;
     const bool left = ImGui::IsMouseDown(0), pans = ImGui::IsMouseDown(2) || (left && io.KeyShift);
     if (left || pans || ImGui::IsMouseDown(1)) moves = true, model_.setMoving(true);
@@ -407,6 +480,8 @@ void Window::shortcuts(int key, bool ctrl) {
     case GLFW_KEY_ESCAPE:
       if (panels_.showsHelp)
         panels_.showsHelp = false;
+      else if (model_.explained())
+        model_.closeExplanation();
       else
         model_.stop();
       break;

@@ -47,6 +47,7 @@ class Window : public Stage {
   void frame();
   void drawPanels(float width, float height);
   void drawPicture();
+  void drawRays(int emphasised);
   void upload();
   void writeShot();
   void moveCamera();
@@ -75,6 +76,8 @@ class Window : public Stage {
   int frames_ = 0;
   double drawnAt_ = 0;
   bool wasMoving_ = false;
+  ImVec2 pressedAt_{-1, -1};  ///< where the left button went down on the picture
+  int hoveredRay_ = -1;       ///< in the list of rays
   std::chrono::steady_clock::time_point movedAt_{};
   // What a script does with the mouse.
   bool isScripted_ = false;

@@ -27,8 +27,9 @@ constexpr double kTurn = 3.5;  ///< radians that a drag over the picture's heigh
 constexpr double kWheel = 1.12;
 /// Without a move for so long the hand is off the camera.
 constexpr double kRestSeconds = 0.15;
-/// How often a clock and a bar are drawn that go on by themselves.
-constexpr double kClockSeconds = 0.1;
+/// How often a clock and a bar are drawn that go on by themselves. Where OpenGL is software too, each frame
+/// is taken from the render: ten a second cost it a third of its time.
+constexpr double kClockSeconds = 0.5;
 /// How often the model is asked where nothing happens: a scene's file may have been written.
 constexpr double kIdleSeconds = 0.5;
 
@@ -142,10 +143,10 @@ void Window::run() {
     else if (options_.script)
       glfwWaitEventsTimeout(0.01);
     else if (isBusy() || wasMoving_)
-      glfwWaitEventsTimeout(kClockSeconds);
+      glfwWaitEventsTimeout(wasMoving_ ? kRestSeconds : kClockSeconds);
     else
       glfwWaitEventsTimeout(kIdleSeconds);
-    if (model_.update()) framesToDraw_ = kFramesAfterEvent;
+    if (model_.update()) redraw();
     if (options_.script && !options_.script(*this)) quit();
     const bool isDue = now() - drawnAt_ >= kClockSeconds;
     if (isDue && (isBusy() || wasMoving_)) redraw();

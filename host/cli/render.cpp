@@ -120,7 +120,7 @@ auto explainingErrors(const RenderOptions& o, const Work& work) {
 
 /// The pixel's ray trees, on standard output.
 void tellExplanation(const Scene& scene, const RenderOptions& o) {
-  const auto [x, y] = std::pair(o.explain->x, o.explain->y);
+  const int x = o.explain->x, y = o.explain->y;
   if (x >= o.settings.width || y >= o.settings.height)
     throw InputError(fmt::format("--explain: {},{} lies outside the picture of {}×{}", x, y, o.settings.width,
                                  o.settings.height));

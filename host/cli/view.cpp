@@ -1,5 +1,4 @@
 // whittle view: a scene in a window, with every setting and statistic of a render.
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <fstream>
@@ -18,6 +17,7 @@
 #include "image/image_io.h"
 #include "image/tone_map.h"
 #include "render/peak_memory.h"
+#include "scene/own_library.h"
 #include "view/viewer.h"
 #include "view/window/window_library.h"
 
@@ -45,22 +45,12 @@ view::Script readScript(const fs::path& file) {
   return view::Script(text.str());
 }
 
-/// Beside the program, or where it is installed.
 const view::WindowLibrary& loadWindow() {
-  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
   std::string problem = "this build has none: install libimgui-dev and libglfw3-dev, and build again";
-  for (const char* place : {".", "..", "../lib/whittle"}) {
-    const fs::path library = folder / place / "libwhittle_window.so";
-    std::error_code error;
-    if (!fs::exists(library, error)) continue;
-    if (void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL))
-      if (const auto entry =
-              reinterpret_cast<decltype(&whittleWindowLibrary)>(dlsym(handle, "whittleWindowLibrary")))
-        return *entry();
-    const char* const said = dlerror();
-    problem = said ? said : "it does not hold what it should";
-    break;
-  }
+  using Entry = decltype(&whittleWindowLibrary);
+  if (const auto entry =
+          reinterpret_cast<Entry>(loadOwnLibrary("libwhittle_window.so", "whittleWindowLibrary", problem)))
+    return *entry();
   throw std::runtime_error(fmt::format("no window: libwhittle_window.so: {}", problem));
 }
 

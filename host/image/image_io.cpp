@@ -1,7 +1,6 @@
 // Finds and loads the image codec, checks paths, and hands the work over.
 #include "image/image_io.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include "image/image_codec.h"
 #include "image/radiance_file.h"
 #include "scene/input_error.h"
+#include "scene/own_library.h"
 #include "scene/whole_file.h"
 
 namespace whittle {
@@ -21,25 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside the program, above it (test programs), or where it is installed.
 const ImageCodec* loadCodec() {
-  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
-  std::string problem;
-  for (const char* place : {".", "..", "../lib/whittle"}) {
-    const fs::path library = folder / place / "libwhittle_codec.so";
-    std::error_code error;
-    if (!fs::exists(library, error)) continue;
-    if (void* const handle = dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL)) {
-      using Entry = decltype(&whittleImageCodec);
-      if (const auto entry = reinterpret_cast<Entry>(dlsym(handle, "whittleImageCodec"))) return entry();
-    }
-    const char* const said = dlerror();
-    problem = said ? said : "it does not hold what it should";
-    break;
-  }
+  std::string problem = "it is neither beside the program nor in ../lib/whittle";
+  using Entry = decltype(&whittleImageCodec);
+  if (const auto entry =
+          reinterpret_cast<Entry>(loadOwnLibrary("libwhittle_codec.so", "whittleImageCodec", problem)))
+    return entry();
   throw std::runtime_error(
-      fmt::format("libwhittle_codec.so, which reads and writes images, cannot be loaded: {}",
-                  problem.empty() ? "it is neither beside the program nor in ../lib/whittle" : problem));
+      fmt::format("libwhittle_codec.so, which reads and writes images, cannot be loaded: {}", problem));
 }
 
 const ImageCodec& codec() {

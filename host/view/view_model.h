@@ -54,7 +54,7 @@ class ViewModel {
   virtual bool isFinished() const = 0;
   /// It is of what was asked for last, coarse or not.
   virtual bool hasPicture() const = 0;
-  /// Lines for the user: notes of loading, what was written, what went wrong. `serial` grows with each.
+  /// Lines for the user: notes of loading, what was written, what went wrong; the newest last.
   struct Message {
     bool isError = false;
     std::string text;
@@ -87,9 +87,9 @@ class ViewModel {
   virtual void chooseCamera(std::size_t index) = 0;
   virtual double fieldOfView() const = 0;  ///< vertical, degrees
   virtual void setFieldOfView(double degrees) = 0;
-  /// As options of the command line, and back: returns what is wrong with them, or nothing.
+  /// As options of the command line, and back; a message says what is wrong with them.
   virtual std::string cameraText() const = 0;
-  virtual std::string pasteCamera(const std::string& text) = 0;
+  virtual void pasteCamera(const std::string& text) = 0;
   /// Asks for the rays of what lies at (x, y), in [0, 1]² from the picture's top left; the first sample's.
   virtual void explain(double x, double y) = 0;
   virtual void closeExplanation() = 0;
@@ -110,7 +110,6 @@ class ViewModel {
   /// A scene, or an environment (.hdr, .exr).
   virtual void open(const std::filesystem::path& file) = 0;
   virtual void reload() = 0;
-  virtual std::string sceneFile() const = 0;
   /// Writes NAME.png and NAME.exr of what is shown; a message says where.
   virtual void save(const std::filesystem::path& withoutExtension) = 0;
   virtual void stop() = 0;

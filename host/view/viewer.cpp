@@ -39,8 +39,7 @@ Viewer::Viewer(Services services, const Settings& settings, const std::filesyste
   layer.standard = layer_;
   layer.tip =
       "radiance, or what each pixel's first sample meets: distance, normal, base colour, triangle; or how "
-      "many "
-      "samples it has";
+      "many samples it has";
   services_.controls.insert(services_.controls.begin(), layer);
   if (!file.empty()) load(file, false);
 }
@@ -52,17 +51,9 @@ void Viewer::say(bool isError, std::string text) {
 
 double Viewer::aspect() const { return static_cast<double>(settings_.width) / settings_.height; }
 
-double Viewer::size() const {
-  if (!scene_) return 1.0;
-  const Bounds b = boundsOf(*scene_);
-  return std::max(1e-9, glm::length(b.hi - b.lo));
-}
+double Viewer::size() const { return std::max(1e-9, glm::length(bounds_.hi - bounds_.lo)); }
 
-glm::dvec3 Viewer::middle() const {
-  if (!scene_) return glm::dvec3(0);
-  const Bounds b = boundsOf(*scene_);
-  return (b.lo + b.hi) / 2.0;
-}
+glm::dvec3 Viewer::middle() const { return (bounds_.lo + bounds_.hi) / 2.0; }
 
 /// Its pivot is what it looks at, else the scene's middle.
 HandCamera Viewer::held(const Camera& camera) const {
@@ -105,6 +96,7 @@ void Viewer::takeOver(Loaded loaded) {
   }
   const bool isFirst = !scene_;
   scene_ = loaded.scene;
+  bounds_ = boundsOf(*scene_);
   settle(loaded);
   for (auto& text : loaded.notes) say(false, std::move(text));
   file_ = scene_->file;
@@ -329,22 +321,20 @@ std::string Viewer::cameraText() const {
   return scene_ ? services_.cameraText(camera_.camera(), scene_->origin) : std::string();
 }
 
-std::string Viewer::pasteCamera(const std::string& text) {
-  if (!scene_) return "there is no scene yet";
+void Viewer::pasteCamera(const std::string& text) {
+  if (!scene_) return;
   try {
     camera_ = held(services_.camera(*scene_, aspect(), text));
   } catch (const InputError& e) {
-    return e.what();
+    return say(true, e.what());
   }
   ask();
-  return {};
 }
 
 void Viewer::setMoving(bool isMoving) { isMoving_ = isMoving; }
 
 void Viewer::open(const std::filesystem::path& file) { load(file, false); }
 void Viewer::reload() { load({}, true); }
-std::string Viewer::sceneFile() const { return scene_ ? scene_->file : std::string(); }
 
 void Viewer::save(const std::filesystem::path& withoutExtension) {
   if (!shown_.result || !scene_) return say(true, "there is no picture yet");

@@ -75,7 +75,7 @@ class Viewer : public ViewModel {
   double fieldOfView() const override;
   void setFieldOfView(double degrees) override;
   std::string cameraText() const override;
-  std::string pasteCamera(const std::string& text) override;
+  void pasteCamera(const std::string& text) override;
   void setMoving(bool isMoving) override;
   void explain(double x, double y) override;
   void closeExplanation() override { explained_.reset(); }
@@ -83,7 +83,6 @@ class Viewer : public ViewModel {
 
   void open(const std::filesystem::path& file) override;
   void reload() override;
-  std::string sceneFile() const override;
   void save(const std::filesystem::path& withoutExtension) override;
   void stop() override { live_.stop(); }
   std::string stateJson() const override;
@@ -125,6 +124,7 @@ class Viewer : public ViewModel {
   Settings settings_;
   std::string layer_;                   ///< that is shown, of kLayers
   std::shared_ptr<const Scene> scene_;  ///< null: none yet
+  Bounds bounds_;                       ///< of its triangles
   HandCamera camera_;
   bool isMoving_ = false;
   Shown shown_;

@@ -30,24 +30,28 @@ std::uint32_t hitPlanesFor(const SceneFeatures& features) {
 
 RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity,
                      std::uint32_t compactChunk)
+    : RayQueues(compute, Asked{SceneFeatures::ofBits(features.bits() & kQueueFeatures)}, capacity,
+                compactChunk) {}
+
+RayQueues::RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacity, std::uint32_t compactChunk)
     : compute_(compute),
       capacity_(capacity),
-      segmentLimit_(features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity),
-      rayPlanes_(rayPlanesFor(features)),
-      hitPlanes_(hitPlanesFor(features)),
-      radiancePlanes_(features.has(Feature::COVERAGE) ? RADIANCE_PLANES_COVERAGE : RADIANCE_PLANES) {
+      segmentLimit_(asked.features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity),
+      rayPlanes_(rayPlanesFor(asked.features)),
+      hitPlanes_(hitPlanesFor(asked.features)),
+      radiancePlanes_(asked.features.has(Feature::COVERAGE) ? RADIANCE_PLANES_COVERAGE : RADIANCE_PLANES) {
   // A packet reads up to fifteen entries past its segment (into the next plane, or the padding) and ignores
   // them. It writes whole packets from entry 0, which stay inside a plane because the capacity is a multiple.
   assert(capacity % PACKET_RAYS == 0);
   const auto planes = [&](const char* name, std::size_t count) {
     return compute.allocate(name, (count * capacity + QUEUE_PADDING) * sizeof(float));
   };
-  const bool shadowRays = features.has(Feature::SHADOWS);
-  const bool impulseRays = features.has(Feature::IMPULSES);
+  const bool shadowRays = asked.features.has(Feature::SHADOWS);
+  const bool impulseRays = asked.features.has(Feature::IMPULSES);
   hits = planes("hits", hitPlanes_);
   sampleRadiance = planes("sampleRadiance", radiancePlanes_);
   if (shadowRays) shadows = planes("shadows", SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
-  const std::size_t impulsesOfHit = features.has(Feature::BOTH_BRANCHES) ? 2 : 1;
+  const std::size_t impulsesOfHit = asked.features.has(Feature::BOTH_BRANCHES) ? 2 : 1;
   if (impulseRays)
     impulses = planes("impulses", impulsesOfHit * IMPULSE_PLANES),
     entryRadiance = planes("entryRadiance", radiancePlanes_);

@@ -55,6 +55,11 @@ class RayQueues {
   Buffer hits, entryRadiance, sampleRadiance, shadows, shadowQueue, impulses, flags, totals, sums;
 
  private:
+  /// Of kQueueFeatures alone.
+  struct Asked {
+    SceneFeatures features;
+  };
+  RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacity, std::uint32_t compactChunk);
   std::vector<std::uint32_t> readSlots(const Buffer& queue, std::uint32_t begin, std::uint32_t count) const;
   std::vector<Segment> cutLongRuns(const std::vector<std::uint32_t>& slots) const;
 

@@ -9,18 +9,11 @@
 namespace whittle::test {
 namespace {
 
-RenderHooks explainHooks() {
-  RenderHooks hooks;
-  hooks.kernelFolder = testKernelFolder();
-  return hooks;
-}
-
 Settings explainSettings(int bounces, int samples) {
   Settings settings = wholeSettings(bounces);
   settings.width = 16, settings.height = 9;
   settings.raysPerPixel = samples;
-  if (const char* selector = std::getenv("WHITTLE_TEST_DEVICE")) settings.device = selector;
-  return settings;
+  return onTestDevice(settings);
 }
 
 /// Every pixel, through glass, mirrors, textures and layers, with both forms of the kernels.
@@ -31,11 +24,11 @@ TEST(Explanation, SumsAreThePixelsAndRaysThoseThatAreCounted) {
       Settings settings = explainSettings(8, 1);
       settings.lanes = lanes;
       RenderSession session;
-      const RenderResult picture = session.render(scene, settings, explainHooks());
+      const RenderResult picture = session.render(scene, settings, testHooks());
       std::uint64_t primary = 0, impulse = 0, shadow = 0;
       for (int y = 0; y < settings.height; y += 1)
         for (int x = 0; x < settings.width; x += 1) {
-          const auto trees = session.explain(scene, settings, x, y, explainHooks());
+          const auto trees = session.explain(scene, settings, x, y, testHooks());
           ASSERT_EQ(trees.size(), 1U);
           const glm::dvec3 pixel(colorOf(picture, static_cast<std::size_t>(y * settings.width + x)));
           ASSERT_EQ(glm::vec3(pixel), trees[0].radiance) << name << " " << x << "," << y;
@@ -56,8 +49,8 @@ TEST(Explanation, SamplesMeanThePixel) {
   const Scene scene = ownScene("nested_glass");
   const Settings settings = explainSettings(6, 5);
   RenderSession session;
-  const RenderResult picture = session.render(scene, settings, explainHooks());
-  const auto trees = session.explain(scene, settings, 8, 4, explainHooks());
+  const RenderResult picture = session.render(scene, settings, testHooks());
+  const auto trees = session.explain(scene, settings, 8, 4, testHooks());
   ASSERT_EQ(trees.size(), 5U);
   glm::dvec3 mean(0);
   for (const auto& tree : trees) mean += glm::dvec3(tree.radiance) / 5.0;
@@ -76,7 +69,7 @@ TEST(Explanation, NamesWhatARayDoes) {
   scene.cameras[0].position = {0, 2, 0};
   Settings settings = explainSettings(4, 1);
   RenderSession session;
-  const Explanation e{8, 4, session.explain(scene, settings, 8, 4, explainHooks())};
+  const Explanation e{8, 4, session.explain(scene, settings, 8, 4, testHooks())};
   const auto& rays = e.trees[0].rays;
   ASSERT_GE(rays.size(), 3U);
   ASSERT_TRUE(rays[0].hit);
@@ -112,7 +105,7 @@ TEST(Explanation, TellsBlockedShadowRaysAndWhatEnds) {
   scene.cameras = {lookingDown()};
   scene.cameras[0].position = {0.1F, 1.5F, 0.1F};
   RenderSession session;
-  const auto trees = session.explain(scene, explainSettings(1, 1), 8, 4, explainHooks());
+  const auto trees = session.explain(scene, explainSettings(1, 1), 8, 4, testHooks());
   const auto& ray = trees[0].rays[0];
   ASSERT_EQ(ray.shadows.size(), 2U);
   EXPECT_EQ(ray.shadows[0].light, 0U);

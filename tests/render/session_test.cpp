@@ -7,17 +7,10 @@
 namespace whittle::test {
 namespace {
 
-RenderHooks sessionHooks() {
-  RenderHooks hooks;
-  hooks.kernelFolder = testKernelFolder();
-  return hooks;
-}
-
 Settings sessionSettings() {
   Settings settings = wholeSettings(4);
   settings.raysPerPixel = 4;
-  if (const char* selector = std::getenv("WHITTLE_TEST_DEVICE")) settings.device = selector;
-  return settings;
+  return onTestDevice(settings);
 }
 
 TEST(RenderSession, GivesTheBitsOfSingleRenders) {
@@ -25,8 +18,8 @@ TEST(RenderSession, GivesTheBitsOfSingleRenders) {
   const Scene scene = ownScene("cornell_box");
   Settings settings = sessionSettings();
   const auto expectSame = [&](const Settings& s, const char* what) {
-    const RenderResult kept = session.render(scene, s, sessionHooks());
-    const RenderResult single = render(scene, s, sessionHooks());
+    const RenderResult kept = session.render(scene, s, testHooks());
+    const RenderResult single = render(scene, s, testHooks());
     EXPECT_EQ(differingPixels(kept.radiance, single.radiance), 0U) << what;
     EXPECT_EQ(kept.stats.rays.total(), single.stats.rays.total()) << what;
     EXPECT_EQ(kept.stats.buffers.size(), single.stats.buffers.size()) << what;
@@ -63,8 +56,8 @@ TEST(RenderSession, AnotherSceneIsUploadedWhenItIsSaid) {
   for (const char* name : {"mirror", "cornell_box"}) {
     session.sceneChanged();
     const Scene scene = ownScene(name);
-    EXPECT_EQ(differingPixels(session.render(scene, settings, sessionHooks()).radiance,
-                              render(scene, settings, sessionHooks()).radiance),
+    EXPECT_EQ(differingPixels(session.render(scene, settings, testHooks()).radiance,
+                              render(scene, settings, testHooks()).radiance),
               0U)
         << name;
   }
@@ -74,16 +67,16 @@ TEST(RenderSession, AnotherCameraCostsNothingAndShowsWhatItSees) {
   RenderSession session;
   Scene scene = ownScene("cornell_box");
   const Settings settings = sessionSettings();
-  session.render(scene, settings, sessionHooks());
+  session.render(scene, settings, testHooks());
   Camera camera = scene.cameras[0];
   camera.position += glm::vec3(0.1F, 0.2F, -0.1F);
-  RenderHooks hooks = sessionHooks();
+  RenderHooks hooks = testHooks();
   hooks.camera = &camera;
   const RenderResult moved = session.render(scene, settings, hooks);
   EXPECT_FALSE(session.work().scene || session.work().queues || session.work().picture);
   EXPECT_EQ(session.work().programs, 0);
   scene.cameras[0] = camera;
-  EXPECT_EQ(differingPixels(moved.radiance, render(scene, settings, sessionHooks()).radiance), 0U);
+  EXPECT_EQ(differingPixels(moved.radiance, render(scene, settings, testHooks()).radiance), 0U);
 }
 
 TEST(RenderSession, PassesDoubleTheSamplesAndTheLastIsThePicture) {
@@ -92,7 +85,7 @@ TEST(RenderSession, PassesDoubleTheSamplesAndTheLastIsThePicture) {
   const Settings settings = sessionSettings();
   std::vector<double> samples;
   FloatImage last;
-  RenderHooks hooks = sessionHooks();
+  RenderHooks hooks = testHooks();
   hooks.shown = [&](RenderResult result) {
     samples.push_back(result.stats.samples.mean);
     last = std::move(result.radiance);
@@ -100,7 +93,7 @@ TEST(RenderSession, PassesDoubleTheSamplesAndTheLastIsThePicture) {
   const RenderResult whole = session.render(scene, settings, hooks);
   EXPECT_EQ(samples, (std::vector<double>{1, 2, 4}));
   EXPECT_EQ(differingPixels(last, whole.radiance), 0U);
-  EXPECT_EQ(differingPixels(whole.radiance, render(scene, settings, sessionHooks()).radiance), 0U);
+  EXPECT_EQ(differingPixels(whole.radiance, render(scene, settings, testHooks()).radiance), 0U);
 }
 
 TEST(RenderSession, EndsWhenItIsToldToAndGoesOnAsIfNothingHadBeen) {
@@ -110,12 +103,12 @@ TEST(RenderSession, EndsWhenItIsToldToAndGoesOnAsIfNothingHadBeen) {
   settings.wavefront = 600;  // many launches
   for (const int after : {0, 1, 5, 20}) {
     int asked = 0;
-    RenderHooks hooks = sessionHooks();
+    RenderHooks hooks = testHooks();
     hooks.keepGoing = [&] { return asked++ < after; };
     const RenderResult cut = session.render(scene, settings, hooks);
     EXPECT_LT(cut.stats.samples.mean, 4) << after;
-    EXPECT_EQ(differingPixels(session.render(scene, settings, sessionHooks()).radiance,
-                              render(scene, settings, sessionHooks()).radiance),
+    EXPECT_EQ(differingPixels(session.render(scene, settings, testHooks()).radiance,
+                              render(scene, settings, testHooks()).radiance),
               0U)
         << after;
   }

@@ -34,6 +34,19 @@ inline Settings wholeSettings(int bounces = 8) {
   return settings;
 }
 
+/// With the kernels that the environment selects, see support/test_device.h.
+inline RenderHooks testHooks() {
+  RenderHooks hooks;
+  hooks.kernelFolder = testKernelFolder();
+  return hooks;
+}
+
+/// On the device that it selects.
+inline Settings onTestDevice(Settings settings) {
+  if (const char* selector = std::getenv("WHITTLE_TEST_DEVICE")) settings.device = selector;
+  return settings;
+}
+
 /// Renders on the device and with the kernels that the environment selects, see support/test_device.h. All
 /// renders of a process share the device and what was compiled on it, unless the settings name one or
 /// launches are not timed.

@@ -18,6 +18,9 @@ struct PanelState {
   bool restyles = false;  ///< the style was changed
 };
 
+/// Shown while the mouse is on the item before; nothing for an empty text.
+void tip(const std::string& text);
+
 /// Into the current ImGui window.
 void settingsPanel(ViewModel& model, PanelState& state);
 void statisticsPanel(const ViewModel& model);

@@ -16,6 +16,11 @@ struct GLFWwindow;
 
 namespace whittle::view {
 
+/// After the last event: what fades or follows takes a frame or two more.
+inline constexpr int kFramesAfterEvent = 3;
+/// Without a move for so long the hand is off the camera.
+inline constexpr double kRestSeconds = 0.15;
+
 class Window : public Stage {
  public:
   /// Throws std::runtime_error where there is no display, or none with OpenGL 3.

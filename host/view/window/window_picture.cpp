@@ -1,0 +1,122 @@
+// The picture in the window: its texture, its place, and the rays of a pixel over it.
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+
+#include "view/window/style.h"
+#include "view/window/window.h"
+
+namespace whittle::view {
+
+void Window::upload() {
+  const Picture& p = model_.picture();
+  if (p.serial == uploaded_ || p.serial == 0) return;
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  if (p.width != textureWidth_ || p.height != textureHeight_)
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, p.width, p.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, p.codes.data());
+  else
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, p.width, p.height, GL_RGBA, GL_UNSIGNED_BYTE, p.codes.data());
+  textureWidth_ = p.width;
+  textureHeight_ = p.height;
+  uploaded_ = p.serial;
+  isLinear_ = p.coarse;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+/// 1:1 in the middle where there is room, else as large as fits.
+Window::Rect Window::pictureRect(float left, float top, float width, float height) const {
+  const auto w = static_cast<float>(std::max(1, std::atoi(model_.value("width").c_str())));
+  const auto h = static_cast<float>(std::max(1, std::atoi(model_.value("height").c_str())));
+  float scale = std::min(width / w, height / h);
+  scale = scale >= 1 ? std::floor(scale) : std::max(scale, 1e-3F);
+  return {std::floor(left + (width - w * scale) / 2), std::floor(top + (height - h * scale) / 2), w * scale,
+          h * scale};
+}
+
+ImVec2 Window::inPicture(const ImVec2& at) const {
+  return {(at.x - picture_.x) / picture_.width, (at.y - picture_.y) / picture_.height};
+}
+
+void Window::drawPicture() {
+  upload();
+  ImDrawList* const draw = ImGui::GetBackgroundDrawList();
+  const ImU32 ground = panels_.isLight ? IM_COL32(214, 214, 218, 255) : IM_COL32(16, 17, 19, 255);
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  draw->AddRectFilled({0, 0}, size, ground);
+  if (uploaded_ == 0) return;
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  const float scale = picture_.width / static_cast<float>(textureWidth_);
+  const int filter = isLinear_ || scale != std::floor(scale) ? GL_LINEAR : GL_NEAREST;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  draw->AddImage(std::bit_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_)), {picture_.x, picture_.y},
+                 {picture_.x + picture_.width, picture_.y + picture_.height});
+}
+
+namespace {
+
+struct Stroke {
+  ImU32 color;
+  float width, dash, gap;  ///< pixels; no gap: solid
+};
+
+/// Told apart by pattern as well as by colour.
+Stroke strokeOf(Line line) {
+  switch (line) {
+    case Line::Eye:
+      return {IM_COL32_WHITE, 2, 0, 0};
+    case Line::Reflected:
+      return {kSeries[0], 2, 0, 0};
+    case Line::Refracted:
+      return {kSeries[1], 2, 10, 5};
+    case Line::Straight:
+      return {kSeries[2], 2, 2, 5};
+    case Line::Shadow:
+      return {kSeries[3], 1, 0, 0};
+    case Line::Blocked:
+      break;
+  }
+  return {IM_COL32_BLACK, 1.5F, 6, 6};
+}
+
+void drawStroke(ImDrawList& draw, ImVec2 a, ImVec2 b, const Stroke& s, float thicker) {
+  const float dx = b.x - a.x, dy = b.y - a.y, length = std::sqrt(dx * dx + dy * dy);
+  const float period = s.gap > 0 ? s.dash + s.gap : length;
+  if (!(length > 0) || !(length < 1e5F)) return;
+  for (float at = 0; at < length; at += period) {
+    const float end = std::min(length, at + (s.gap > 0 ? s.dash : length));
+    const ImVec2 from{a.x + dx * at / length, a.y + dy * at / length},
+        to{a.x + dx * end / length, a.y + dy * end / length};
+    draw.AddLine(from, to, IM_COL32(0, 0, 0, 110), s.width + thicker + 2);  // seen before anything
+    draw.AddLine(from, to, s.color, s.width + thicker);
+  }
+}
+
+}  // namespace
+
+void Window::drawRays(int emphasised) {
+  const ViewModel::Explained* const e = model_.explained();
+  if (!e) return;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.PushClipRect({picture_.x, picture_.y}, {picture_.x + picture_.width, picture_.y + picture_.height});
+  const auto at = [&](double x, double y) {
+    return ImVec2(picture_.x + static_cast<float>(x) * picture_.width,
+                  picture_.y + static_cast<float>(y) * picture_.height);
+  };
+  for (const DrawnRay& d : e->drawn) {
+    const bool isOn = static_cast<int>(d.ray) == emphasised;
+    drawStroke(draw, at(d.x0, d.y0), at(d.x1, d.y1), strokeOf(d.line), isOn ? 2.0F : 0.0F);
+    if (d.line == Line::Eye) {
+      draw.AddCircle(at(d.x0, d.y0), 7, IM_COL32_BLACK, 0, 4);
+      draw.AddCircle(at(d.x0, d.y0), 7, IM_COL32_WHITE, 0, 2);
+    }
+  }
+  draw.PopClipRect();
+}
+
+}  // namespace whittle::view

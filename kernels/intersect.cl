@@ -57,6 +57,9 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
 #if HAS(STRAIGHT)
   hit.order = hit.t;
 #endif
+#if HAS(COST)
+  hit.nodes = hit.tests = (uint16)(0);
+#endif
   nearestPacket(&scene, &p, &hit);
 #if HAS(STRAIGHT)
   vstore16(hit.order, 0, hits + HIT_ORDER * stride + i);
@@ -65,6 +68,12 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
   vstore16(as_float16(hit.triangle), 0, hits + HIT_TRIANGLE * stride + i);
   vstore16(hit.v / hit.det, 0, hits + HIT_B1 * stride + i);
   vstore16(hit.w / hit.det, 0, hits + HIT_B2 * stride + i);
+#if HAS(COST)
+  if (hitPlanes > HIT_TESTS) {
+    vstore16(as_float16(hit.nodes), 0, hits + HIT_NODES * stride + i);
+    vstore16(as_float16(hit.tests), 0, hits + HIT_TESTS * stride + i);
+  }
+#endif
 #else
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
@@ -83,5 +92,11 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
   hits[HIT_TRIANGLE * stride + i] = as_float(hit.triangle);
   hits[HIT_B1 * stride + i] = hit.b1;
   hits[HIT_B2 * stride + i] = hit.b2;
+#if HAS(COST)
+  if (hitPlanes > HIT_TESTS) {
+    hits[HIT_NODES * stride + i] = as_float(hit.nodes);
+    hits[HIT_TESTS * stride + i] = as_float(hit.tests);
+  }
+#endif
 #endif
 }

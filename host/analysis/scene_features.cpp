@@ -215,6 +215,7 @@ std::vector<Question> cameraQuestions(const Needs& n) {
       {F::FIXED_RAY_OFFSET, n.settings.rayOffset.has_value(), "the ray offset is derived at each hit"},
       {F::COVERAGE, n.settings.alpha, "no alpha channel was asked for", true},
       {F::AOVS, n.settings.aovs, "no auxiliary output was asked for", true},
+      {F::COST, n.settings.costAov, "nobody asks what searches cost", true},
   };
 }
 

@@ -7,9 +7,31 @@
 #include <algorithm>
 
 #include "cli/outputs.h"
+#include "render/aovs.h"
 #include "scene/input_error.h"
 
 namespace whittle::cli {
+
+const std::vector<std::string>& renderAovs() {
+  static const std::vector<std::string> names = [] {
+    auto all = kAovNames;
+    all.emplace_back(kAllAovs);
+    return all;
+  }();
+  return names;
+}
+
+void askForAovs(Settings& settings, const std::vector<std::string>& names) {
+  for (const auto& name : names) {
+    if (name == "error" && settings.raysPerPixel == 1)
+      throw InputError(
+          "--aov error: one ray for each pixel tells nothing of its error; use --rays-per-pixel 2 or more");
+    if (name == kAllAovs)
+      askForAllAovs(settings);
+    else
+      askForAov(settings, name);
+  }
+}
 
 AovOutput parseAov(const std::string& text, const std::vector<std::string>& names) {
   const auto equals = text.find('=');
@@ -27,6 +49,7 @@ std::vector<std::string> channelNamesOf(const std::string& aov) {
   if (aov == "depth") return {"Z"};
   if (aov == "normal") return {"normal.X", "normal.Y", "normal.Z"};
   if (aov == "albedo") return {"albedo.R", "albedo.G", "albedo.B"};
+  if (aov == "cost") return {"cost.nodes", "cost.triangles"};
   return {aov + ".V"};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/image_io.h"
+#include "scene/settings.h"
 
 namespace whittle::cli {
 
@@ -20,9 +21,11 @@ struct AovOutput {
 inline constexpr const char* kAllAovs = "all";
 
 /// What `whittle render` and `whittle reference` know.
-inline const std::vector<std::string> kRenderAovs{"depth",     "normal",  "albedo",
-                                                  "primitive", "samples", kAllAovs};
+const std::vector<std::string>& renderAovs();
 inline const std::vector<std::string> kReferenceAovs{"depth", "primitive", kAllAovs};
+
+/// Has the render keep these outputs of renderAovs. Throws InputError where they and the settings do not fit.
+void askForAovs(Settings& settings, const std::vector<std::string>& names);
 
 /// Throws InputError unless it is NAME=FILE.exr with a name among `names`.
 AovOutput parseAov(const std::string& text, const std::vector<std::string>& names);

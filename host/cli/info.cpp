@@ -31,10 +31,11 @@ struct InfoOptions {
 
 /// As `whittle render` takes them, or without files: none is written.
 void checkAovs(InfoOptions& o) {
-  for (const auto& text : o.aovTexts)
-    if (std::find(kRenderAovs.begin(), kRenderAovs.end(), text) == kRenderAovs.end())
-      parseAov(text, kRenderAovs);
-  o.settings.aovs = !o.aovTexts.empty();
+  const auto& known = renderAovs();
+  for (auto& text : o.aovTexts)
+    askForAovs(
+        o.settings,
+        {std::find(known.begin(), known.end(), text) == known.end() ? parseAov(text, known).name : text});
 }
 
 /// The render's own set-up where there is a device for it, so that sizes are real; else what a CPU device
@@ -88,8 +89,8 @@ void addInfo(CLI::App& app, int& status) {
   addDeviceOptions(*c, o->settings);
   c->footer("Example: whittle info scene.glb --bounces 1");
   c->callback([o, c, &status] {
-    checkAovs(*o);
     settleRaysPerPixel(*c, o->settings);
+    checkAovs(*o);
     runInfo(*o);
     status = 0;
   });

@@ -57,7 +57,7 @@ OutputCheck checkOutputs(RenderOptions& o) {
   OutputCheck check(o.settings.width, o.settings.height);
   for (const auto& file : {o.scene.file, std::filesystem::path(o.scene.background), o.reference})
     if (!file.empty()) check.reads(file);
-  for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, kRenderAovs));
+  for (const auto& text : o.aovTexts) o.aovs.push_back(parseAov(text, renderAovs()));
   for (const auto& file : o.outputs) check.picture("--output", file);
   for (const auto& aov : o.aovs) check.picture("--aov", aov.file);
   if (o.settings.alpha) check.alpha(o.outputs);
@@ -239,7 +239,7 @@ void report(const RenderOptions& o, const Stats& stats, const OutputWriter& file
 int runRender(RenderOptions& o) {
   const auto start = Clock::now();
   OutputCheck check = checkOutputs(o);
-  o.settings.aovs = !o.aovs.empty();
+  for (const auto& aov : o.aovs) askForAovs(o.settings, {aov.name});
   const FloatImage reference = readReference(o);
   if (!o.reference.empty() && reference.hadAlpha != o.settings.alpha)
     warn(fmt::format(
@@ -292,9 +292,10 @@ void addRender(CLI::App& app, int& status) {
       ".exr: linear radiance; .png, .jpg: tone-mapped sRGB; may be given several times [SCENE's name .png; "
       "none with --profile, --stats, --trace or --aov]");
   addSeveral(*c, "--aov", o->aovTexts, "NAME=FILE",
-             "depth|normal|albedo|primitive|samples: of each pixel's first sample, or how many samples it "
-             "has, as .exr (channels Z, normal.X, albedo.R, primitive.V, …); all: these and the picture as "
-             "layers of one file; may be given several times");
+             "of each pixel's first sample depth|normal|albedo|primitive, at which bounce its light came "
+             "(bounce), nodes and triangles that searches for its hits visited (cost); how many samples the "
+             "pixel has (samples) and their standard error (error); as .exr (channels Z, normal.X, albedo.R, "
+             "primitive.V, …); all: these and the picture as layers of one file; may be given several times");
   addFile(*c, "--stats", o->stats, "FILE",
           "statistics as JSON; -: on standard output, instead of the summary");
   c->add_flag("--profile", o->profile, "print time and rate of each stage");

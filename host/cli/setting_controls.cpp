@@ -50,7 +50,7 @@ constexpr std::array kRows{
     Row{"lanes", "Device", "lanes", Kind::Choice},
     Row{"wavefront", "Device", "wavefront, rays", Kind::Whole},
     Row{"work-group", "Device", "work-group", Kind::Whole},
-    Row{"device", "Device", "device", Kind::Text},
+    Row{"device", "Device", "device", Kind::Choice},
     Row{"threads", "Device", "threads", Kind::Whole, false, "threads: of PoCL from the next start"},
 };
 
@@ -73,6 +73,28 @@ std::string keyOf(const std::string& id) {
   for (std::size_t i = 0; i < id.size(); ++i)
     key += id[i] == '-' ? static_cast<char>(std::toupper(static_cast<unsigned char>(id[++i]))) : id[i];
   return key;
+}
+
+/// random|stratified|sobol
+std::vector<std::string> wordsOf(const std::string& typeName) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at <= typeName.size();) {
+    const std::size_t end = std::min(typeName.find('|', at), typeName.size());
+    words.push_back(typeName.substr(at, end - at));
+    at = end + 1;
+  }
+  return words;
+}
+
+/// By number: names may be alike.
+void offerDevices(const DeviceList& devices, view::Control& c) {
+  c.words = {""};
+  c.captions = {"the first"};
+  for (const DeviceInfo& d : devices.devices) {
+    if (!d.usable) continue;
+    c.words.push_back(std::to_string(d.index));
+    c.captions.push_back(fmt::format("{}  {}, {}", d.index, d.name, d.platform));
+  }
 }
 
 }  // namespace
@@ -102,13 +124,14 @@ void setSetting(Settings& settings, const std::string& id, const std::string& te
       throw InputError(fmt::format("--{}: '{}' is not one of on|off", id, text));
     options.app.parse(std::vector<std::string>{(text == "on" ? "--" : "--no-") + id});
   } else {
-    // CLI11 takes the words from the last to the first.
-    options.app.parse(std::vector<std::string>{fmt::format("--{}={}", id, text)});
+    // CLI11 takes the words from the last to the first, and nothing behind "=" for nothing at all.
+    options.app.parse(text.empty() ? std::vector<std::string>{text, fmt::format("--{}", id)}
+                                   : std::vector<std::string>{fmt::format("--{}={}", id, text)});
   }
   settings = options.settings;
 }
 
-std::vector<view::Control> settingControls(const Settings& standard) {
+std::vector<view::Control> settingControls(const Settings& standard, const DeviceList& devices) {
   Options options;
   std::vector<view::Control> controls;
   for (const Row& row : kRows) {
@@ -122,13 +145,10 @@ std::vector<view::Control> settingControls(const Settings& standard) {
     const CLI::Option* const option = options.app.get_option(fmt::format("--{}", row.id));
     c.tip = fmt::format("--{} {}: {}", row.id, option->get_type_name(), option->get_description());
     c.standard = settingText(standard, row.id);
-    std::string words = option->get_type_name();
-    if (row.kind == Kind::Choice)
-      for (std::size_t at = 0; at <= words.size();) {
-        const std::size_t end = std::min(words.find('|', at), words.size());
-        c.words.push_back(words.substr(at, end - at));
-        at = end + 1;
-      }
+    if (c.id == "device")
+      offerDevices(devices, c);
+    else if (row.kind == Kind::Choice)
+      c.words = wordsOf(option->get_type_name());
     controls.push_back(std::move(c));
   }
   return controls;

@@ -5,14 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "cl/device.h"
 #include "scene/settings.h"
 #include "view/view_model.h"
 
 namespace whittle::cli {
 
 /// In the order in which a window shows them. Labels and groups are the window's, tips the options' help.
-/// `standard`: the defaults.
-std::vector<view::Control> settingControls(const Settings& standard);
+/// `standard`: the defaults; `devices`: what there is to choose from.
+std::vector<view::Control> settingControls(const Settings& standard, const DeviceList& devices);
 
 /// As the command line would have it: "on" and "off", "auto", numbers. Throws std::invalid_argument for an id
 /// that is no control.

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <sstream>
 
+#include "cl/device.h"
 #include "cl/kernel_cache.h"
 #include "cli/commands.h"
 #include "cli/error_options.h"
@@ -115,11 +116,11 @@ Camera cameraOf(const Scene& scene, double aspect, const std::string& text) {
 }
 
 /// Under the first free number.
-std::string savePictures(const fs::path& name, const RenderResult& result, const Scene& scene,
+std::string savePictures(const fs::path& stem, const RenderResult& result, const Scene& scene,
                          const Settings& settings) {
   fs::path png, exr;
   for (int i = 1;; ++i) {
-    png = fmt::format("{}-{:03}.png", name.string(), i);
+    png = fmt::format("{}-{:03}.png", stem.string(), i);
     exr = fs::path(png).replace_extension(".exr");
     std::error_code error;
     if (!fs::exists(png, error) && !fs::exists(exr, error)) break;
@@ -142,7 +143,7 @@ int runView(ViewOptions& o) {
   view::Services services;
   Settings standard;
   standard.raysPerPixel = kRaysPerPixel;
-  services.controls = settingControls(standard);
+  services.controls = settingControls(standard, listDevices());
   services.value = settingText;
   services.set = setSetting;
   services.load = [sources](const fs::path& file, Settings& settings, std::vector<std::string>& notes) {
@@ -152,6 +153,8 @@ int runView(ViewOptions& o) {
   services.cameraText = viewpointText;
   services.camera = cameraOf;
   services.save = savePictures;
+  // A script leaves nothing behind but what it is told to write.
+  services.recent = view::RecentFiles(script ? fs::path() : view::recentFilesStore());
   services.wake = [&library] { library.wake(); };
   services.compiler = "/proc/self/exe";
   if (!o.kernelFolder.empty()) services.kernelFolder = o.kernelFolder;

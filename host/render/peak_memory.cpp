@@ -95,7 +95,10 @@ std::uint64_t peakBytes(const Scene& scene, const RenderPlan& plan, std::uint64_
     largest = std::max(largest, bytesOf(image.texels) + bytesOf(image.deepTexels));
   const std::uint64_t uploading = drawn + device.all() + largest;
   // The order of the pixels is made on this side; the picture comes when everything is still there.
-  const std::uint64_t rendering = drawn + device.all() + channels * sizeof(float) * pixels +
+  // Of each pixel what PixelRecorder holds, and its pictures.
+  const std::uint64_t recorded =
+      plan.settings.bounceAov || plan.settings.costAov ? (4 + 3) * sizeof(float) * pixels : 0;
+  const std::uint64_t rendering = recorded + drawn + device.all() + channels * sizeof(float) * pixels +
                                   (device.named("aovs") > 0 ? device.named("aovs") * 2 : 0);
   // Encoding: the picture once more, as codes or as floats that do not compress.
   const std::uint64_t writing = drawn + 2 * channels * sizeof(float) * pixels;

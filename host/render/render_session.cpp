@@ -16,6 +16,7 @@
 #include "scene/camera.h"
 #include "wavefront/camera_to_device.h"
 #include "wavefront/film.h"
+#include "wavefront/pixel_recorder.h"
 #include "wavefront/wavefront.h"
 
 namespace whittle {
@@ -72,12 +73,18 @@ device::RenderConstants constantsToDevice(const Scene& scene, const Camera& came
 }
 
 std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& settings,
-                                           const PictureBuffers& picture, SamplingLoop& loop) {
-  if (!picture.aovs) return {};
-  std::vector<float> planes(picture.aovs.bytes / sizeof(float));
-  compute.read(picture.aovs, 0, picture.aovs.bytes, planes.data());
-  auto aovs = splitAovs(settings.width, settings.height, planes);
-  aovs["samples"] = loop.samples();
+                                           const PictureBuffers& picture, SamplingLoop& loop,
+                                           const std::optional<PixelRecorder>& recorder) {
+  std::map<std::string, FloatImage> aovs;
+  if (picture.aovs) {
+    std::vector<float> planes(picture.aovs.bytes / sizeof(float));
+    compute.read(picture.aovs, 0, picture.aovs.bytes, planes.data());
+    aovs = splitAovs(settings.width, settings.height, planes);
+    aovs["samples"] = loop.samples();
+  }
+  if (settings.errorAov && loop.counts().least() >= 2) aovs["error"] = loop.errors();
+  if (settings.bounceAov) aovs["bounce"] = recorder->bounces();
+  if (settings.costAov) aovs["cost"] = recorder->cost();
   return aovs;
 }
 
@@ -301,11 +308,15 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
   stages.record(hooks.trace);
   const WavefrontSetup setup = setupOf(scene, *kept.scene.value, settings, decisions, hooks);
   Wavefront wavefront(compute, stages, *kept.queues.value, setup, picture.film, picture.aovs);
+  std::optional<PixelRecorder> recorder;
+  if (settings.bounceAov || settings.costAov)
+    recorder.emplace(compute, *kept.queues.value, decisions.features, settings.width, settings.height);
+  wavefront.observe(recorder ? &*recorder : nullptr);
   SamplingLoop loop(compute, wavefront, settings, hooks,
                     FilmBuffers{static_cast<std::size_t>(settings.width) * settings.height, picture.order,
                                 picture.film, picture.passOrder, picture.passBlocks});
   const auto resultSoFar = [&] {
-    RenderResult result{loop.picture(), {}, readAovs(compute, settings, picture, loop), {}};
+    RenderResult result{loop.picture(), {}, readAovs(compute, settings, picture, loop, recorder), {}};
     if (settings.alpha) result.alpha = loop.alpha();
     Stats& stats = result.stats;
     describeScene(stats, scene);

@@ -28,8 +28,9 @@ struct RenderProgress {
 struct RenderResult {
   FloatImage radiance;  ///< RGB, W/(m² sr)
   FloatImage alpha;     ///< with Settings::alpha, 1 channel: the share of each pixel that the scene covers
-  std::map<std::string, FloatImage>
-      aovs;     ///< depth (1 channel, m), primitive (1), normal (3, world), albedo (3), samples (1)
+  /// Those that were asked for: depth (1 channel, m), primitive (1), normal (3, world), albedo (3), samples
+  /// (1), error (1, W/(m² sr)), bounce (1), cost (2: nodes, triangles; PixelRecorder).
+  std::map<std::string, FloatImage> aovs;
   Stats stats;  ///< time.load, time.write and time.total are the caller's to fill
 };
 

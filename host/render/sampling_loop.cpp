@@ -15,6 +15,9 @@ namespace {
 /// Of the samples so far, what an adaptive round gives out: small enough that blocks can part ways, large
 /// enough that looks are few (growth of a quarter: 12 looks for 16 times the samples).
 constexpr double kAdaptiveGrowth = 0.25;
+/// Where somebody looks on: 1, 4, 16 … samples for each pixel, and only doubled where that makes them wait,
+/// since each picture that is shown takes time from the next.
+constexpr double kShownGrowth = 3.0, kShownSeconds = 0.5;
 /// The least that a pass adds on the way to a target, so that looks are few where the estimate keeps rising.
 constexpr double kLeastGrowth = 1.0 / 16.0;
 /// More than a target is expected to need, so that it is seldom missed by a hair: estimates go on changing.
@@ -90,14 +93,15 @@ double SamplingLoop::growth(double most) const {
   return std::max(missing, kLeastGrowth);
 }
 
-/// Samples of each pixel in the next pass: at most as many as there are so far, as long as they fit into the
-/// time that is left; 0: none fits any more.
+/// Samples of each pixel in the next pass, as long as they fit into the time that is left; 0: none fits any
+/// more.
 std::uint32_t SamplingLoop::nextSamples() const {
   const auto total = static_cast<std::uint32_t>(settings_.raysPerPixel);
   const std::uint32_t done = counts_.least();
   if (!looks()) return total;
-  const auto wanted =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(shareOf(done, growth(1.0)), total - done));
+  const auto wanted = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+      shareOf(done, growth(hooks_.shown && passSeconds_ < kShownSeconds ? kShownGrowth : 1.0)),
+      total - done));
   if (settings_.timeLimit <= 0.0 || done == 0) return wanted;
   const double fitting =
       (settings_.timeLimit - elapsed()) / std::max(passSeconds_, 1e-9) * static_cast<double>(passSamples_);
@@ -223,6 +227,12 @@ FloatImage SamplingLoop::picture() {
 FloatImage SamplingLoop::alpha() {
   FloatImage image{settings_.width, settings_.height, 1, std::vector<float>(counts_.pixels())};
   eachPart([&](const FilmPart& part) { resolveAlpha(part, counts_, image); });
+  return image;
+}
+
+FloatImage SamplingLoop::errors() {
+  FloatImage image{settings_.width, settings_.height, 1, std::vector<float>(counts_.pixels())};
+  eachPart([&](const FilmPart& part) { showErrors(part, counts_, image); });
   return image;
 }
 

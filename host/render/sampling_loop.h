@@ -41,6 +41,7 @@ class SamplingLoop {
   FloatImage picture();
   FloatImage alpha();
   FloatImage samples();
+  FloatImage errors();  ///< with two samples for each pixel at least
   /// The throughput that ended (RayTally::ended) for each sample, so weighted that biasBound holds for the
   /// mean over the pixels.
   double endedPerSample() const;

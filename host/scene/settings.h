@@ -77,6 +77,9 @@ struct Settings {
   double targetErrorRelative =
       0.0;            ///< the same, as a share of the picture's mean radiance; goes before targetError
   bool aovs = false;  ///< keep depth, normal, albedo and primitive of each pixel's first sample
+  /// The same of its rays: at which bounce its light came, and what the searches for their hits visited.
+  bool bounceAov = false, costAov = false;
+  bool errorAov = false;          ///< keep the standard error of each pixel
   std::optional<float> exposure;  ///< stops, for .png/.jpg only; unset: chosen where the picture does not fit
   ToneMap toneMap = ToneMap::Auto;  ///< for .png/.jpg only
 };

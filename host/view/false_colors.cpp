@@ -2,7 +2,6 @@
 #include "view/false_colors.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,8 +9,6 @@
 
 namespace whittle::view {
 namespace {
-
-using Code = std::array<std::uint8_t, 3>;
 
 std::uint8_t byteOf(double share) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
@@ -66,10 +63,49 @@ std::vector<std::uint8_t> albedoCodes(const FloatImage& albedo) {
   return codes;
 }
 
-}  // namespace
+/// Least and greatest finite value above 0; 0, 0: there is none.
+std::pair<double, double> rangeOf(const std::vector<double>& values) {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (const double v : values)
+    if (v > 0 && std::isfinite(v)) least = std::min(least, v), greatest = std::max(greatest, v);
+  return greatest > 0 ? std::pair(least, greatest) : std::pair(0.0, 0.0);
+}
 
-std::vector<std::uint8_t> falseColors(const RenderResult& result, const std::string& layer) {
-  const FloatImage& image = result.aovs.at(layer);
+/// Sums of each pixel's channels.
+std::vector<double> sumsOf(const FloatImage& image) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  std::vector<double> sums(image.pixels.size() / channels, 0.0);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    sums[i / channels] += static_cast<double>(image.pixels[i]);
+  return sums;
+}
+
+FalseColors onScale(const std::vector<double>& values, const ColorScale& scale) {
+  FalseColors colors{std::vector<std::uint8_t>(4 * values.size(), 255), scale};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Code code = values[i] > 0 ? scale.at(values[i]) : Code{0, 0, 0};
+    std::copy(code.begin(), code.end(), colors.codes.begin() + static_cast<std::ptrdiff_t>(4 * i));
+  }
+  return colors;
+}
+
+/// Decades of a logarithmic ramp: more than an eye tells apart, few enough that one outlier does not flatten
+/// it.
+constexpr double kDecades = 4;
+
+FalseColors onLogarithmicScale(const FloatImage& image, const char* quantity) {
+  const auto values = sumsOf(image);
+  const auto range = rangeOf(values);
+  return onScale(values, logarithmicScale(range.first, range.second, kDecades, quantity));
+}
+
+FalseColors bounceColors(const FloatImage& bounce) {
+  const auto values = sumsOf(bounce);
+  return onScale(
+      values, {1, std::max(2.0, std::ceil(rangeOf(values).second)), false, "bounce that light comes from"});
+}
+
+std::vector<std::uint8_t> plainCodes(const FloatImage& image, const std::string& layer) {
   if (layer == "depth") return depthCodes(image);
   if (layer == "albedo") return albedoCodes(image);
   if (layer == "primitive")
@@ -86,6 +122,16 @@ std::vector<std::uint8_t> falseColors(const RenderResult& result, const std::str
     for (std::size_t c = 0; c < 3 && !isNothing; ++c) code[c] = byteOf(0.5 + 0.5 * static_cast<double>(n[c]));
     return code;
   });
+}
+
+}  // namespace
+
+FalseColors falseColors(const RenderResult& result, const std::string& layer) {
+  const FloatImage& image = result.aovs.at(layer);
+  if (layer == "error") return onLogarithmicScale(image, "standard error, W/(m² sr)");
+  if (layer == "cost") return onLogarithmicScale(image, "nodes and triangles of a sample");
+  if (layer == "bounce") return bounceColors(image);
+  return {plainCodes(image, layer), {}};
 }
 
 }  // namespace whittle::view

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "view/color_scale.h"
 #include "view/live_render.h"
 #include "view/ray_drawing.h"
 
@@ -20,11 +22,12 @@ struct Control {
   std::string id;  ///< its option without the hyphens in front: "rays-per-pixel"
   std::string group, label, unit;
   Kind kind = Kind::Text;
-  std::vector<std::string> words;  ///< of a Choice; of others what they take besides numbers: "auto"
-  std::string standard;            ///< the default
-  std::string tip;                 ///< the option's help
-  bool reloads = false;            ///< the scene is read again
-  std::string remark;              ///< "at the next start", or empty
+  std::vector<std::string> words;     ///< of a Choice; of others what they take besides numbers: "auto"
+  std::vector<std::string> captions;  ///< what a Choice shows for each of its words, where it is another text
+  std::string standard;               ///< the default
+  std::string tip;                    ///< the option's help
+  bool reloads = false;               ///< the scene is read again
+  std::string remark;                 ///< "at the next start", or empty
 };
 
 /// Codes as `whittle render` writes them into a .png of the same settings.
@@ -33,6 +36,7 @@ struct Picture {
   std::vector<std::uint8_t> codes;  ///< RGBA, row 0 at the top, A = 255
   std::uint64_t serial = 0;         ///< grows with each new one; 0: there is none yet
   bool coarse = false;
+  std::optional<ColorScale> scale;  ///< what its colours mean, where they are a ramp
 };
 
 /// An axis-aligned view: from +Z, +X or +Y.
@@ -107,11 +111,14 @@ class ViewModel {
   /// While a hand is on the camera pictures are coarse first.
   virtual void setMoving(bool isMoving) = 0;
 
+  /// Files that were opened, the newest first.
+  virtual std::vector<std::filesystem::path> recentFiles() const = 0;
   /// A scene, or an environment (.hdr, .exr).
   virtual void open(const std::filesystem::path& file) = 0;
   virtual void reload() = 0;
-  /// Writes NAME.png and NAME.exr of what is shown; a message says where.
-  virtual void save(const std::filesystem::path& withoutExtension) = 0;
+  /// Writes what is shown as .png and .exr, called after the scene, where the program was started; a message
+  /// says where.
+  virtual void save() = 0;
   virtual void stop() = 0;
   /// Statistics and state as JSON text, for scripts: stats.…, view.….
   virtual std::string stateJson() const = 0;

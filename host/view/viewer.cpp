@@ -8,7 +8,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
+#include "render/aovs.h"
 #include "render/explanation.h"
 #include "report/stats.h"
 #include "scene/input_error.h"
@@ -28,18 +30,21 @@ bool isOfCodes(const std::string& id) { return id == "exposure" || id == "tone-m
 Viewer::Viewer(Services services, const Settings& settings, const std::filesystem::path& file)
     : services_(std::move(services)),
       settings_(settings),
-      layer_(kLayers.front()),
+      layer_(kBeauty),
       live_(services_.wake, services_.compiler, services_.kernelFolder) {
   Control layer;
   layer.id = kLayerControl;
   layer.group = "Picture";
   layer.label = layer.id;
   layer.kind = Control::Kind::Choice;
-  layer.words = kLayers;
+  layer.words = kAovNames;
+  layer.words.insert(layer.words.begin(), kBeauty);
   layer.standard = layer_;
   layer.tip =
-      "radiance, or what each pixel's first sample meets: distance, normal, base colour, triangle; or how "
-      "many samples it has";
+      "radiance; or what each pixel's first sample meets: distance, normal, base colour, triangle; how many "
+      "samples the pixel has and their standard error; at which bounce the first sample's light came, and "
+      "how "
+      "many nodes and triangles the searches for its hits visited";
   services_.controls.insert(services_.controls.begin(), layer);
   if (!file.empty()) load(file, false);
 }
@@ -100,6 +105,7 @@ void Viewer::takeOver(Loaded loaded) {
   settle(loaded);
   for (auto& text : loaded.notes) say(false, std::move(text));
   file_ = scene_->file;
+  if (!loaded.keepsCamera) services_.recent.add(file_);
   if (!loaded.keepsCamera) written_ = {};
   if (isFirst || !loaded.keepsCamera) camera_ = held(scene_->cameras[findCamera(*scene_, settings_.camera)]);
   ask();
@@ -107,7 +113,7 @@ void Viewer::takeOver(Loaded loaded) {
 
 Request Viewer::request() const {
   Settings settings = settings_;
-  settings.aovs = layer_ != kLayers.front();
+  if (layer_ != kBeauty) askForAov(settings, layer_);
   return {scene_, camera_.camera(), settings, isMoving_};
 }
 
@@ -198,9 +204,13 @@ void Viewer::makeCodes() {
   picture_.width = radiance.width;
   picture_.height = radiance.height;
   // The layers come with the first picture that is rendered for them.
-  const bool isLayer = layer_ != kLayers.front() && shown_.result->aovs.contains(layer_);
-  picture_.codes =
-      isLayer ? falseColors(*shown_.result, layer_) : services_.codes(radiance, *scene_, settings_);
+  FalseColors colors;
+  if (layer_ != kBeauty && shown_.result->aovs.contains(layer_))
+    colors = falseColors(*shown_.result, layer_);
+  else
+    colors.codes = services_.codes(radiance, *scene_, settings_);
+  picture_.codes = std::move(colors.codes);
+  picture_.scale = std::move(colors.scale);
   picture_.coarse = shown_.coarse;
   ++picture_.serial;
 }
@@ -228,9 +238,10 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
 }
 
 std::string Viewer::showLayer(const std::string& layer) {
-  if (std::find(kLayers.begin(), kLayers.end(), layer) == kLayers.end())
-    return fmt::format("show: '{}' is not one of {}", layer, fmt::join(kLayers, "|"));
-  const bool isTraced = layer == kLayers.front() || (shown_.result && shown_.result->aovs.contains(layer));
+  const auto& layers = services_.controls.front().words;
+  if (std::find(layers.begin(), layers.end(), layer) == layers.end())
+    return fmt::format("show: '{}' is not one of {}", layer, fmt::join(layers, "|"));
+  const bool isTraced = layer == kBeauty || (shown_.result && shown_.result->aovs.contains(layer));
   layer_ = layer;
   if (isTraced)
     makeCodes();
@@ -336,10 +347,10 @@ void Viewer::setMoving(bool isMoving) { isMoving_ = isMoving; }
 void Viewer::open(const std::filesystem::path& file) { load(file, false); }
 void Viewer::reload() { load({}, true); }
 
-void Viewer::save(const std::filesystem::path& withoutExtension) {
+void Viewer::save() {
   if (!shown_.result || !scene_) return say(true, "there is no picture yet");
   try {
-    say(false, services_.save(withoutExtension, *shown_.result, *scene_, settings_));
+    say(false, services_.save(file_.stem(), *shown_.result, *scene_, settings_));
   } catch (const std::exception& e) {
     say(true, e.what());
   }

@@ -12,11 +12,12 @@
 
 #include "view/hand_camera.h"
 #include "view/live_render.h"
+#include "view/recent_files.h"
 #include "view/view_model.h"
 
 namespace whittle::view {
 
-/// The control that no option of a render has: which of false_colors.h's layers is shown.
+/// The control that no option of a render has: which layer is shown.
 inline constexpr const char* kLayerControl = "show";
 
 /// What the command line knows and the model does not. All but `load` are called by the window's thread.
@@ -34,10 +35,11 @@ struct Services {
   std::function<std::string(const Camera&, const glm::dvec3& origin)> cameraText;
   /// Throws InputError.
   std::function<Camera(const Scene&, double aspect, const std::string& text)> camera;
-  /// Writes NAME.png and NAME.exr and returns what was written. Throws.
+  /// Writes pictures called after `stem` and returns what was written. Throws.
   std::function<std::string(const std::filesystem::path&, const RenderResult&, const Scene&, const Settings&)>
       save;
   std::function<void()> wake;  ///< the window: there is something new; any thread
+  RecentFiles recent{{}};
   std::filesystem::path compiler;
   std::optional<std::filesystem::path> kernelFolder;
 };
@@ -83,7 +85,8 @@ class Viewer : public ViewModel {
 
   void open(const std::filesystem::path& file) override;
   void reload() override;
-  void save(const std::filesystem::path& withoutExtension) override;
+  std::vector<std::filesystem::path> recentFiles() const override { return services_.recent.files(); }
+  void save() override;
   void stop() override { live_.stop(); }
   std::string stateJson() const override;
 
@@ -122,7 +125,7 @@ class Viewer : public ViewModel {
 
   Services services_;
   Settings settings_;
-  std::string layer_;                   ///< that is shown, of kLayers
+  std::string layer_;                   ///< that is shown, kBeauty or one of kAovNames
   std::shared_ptr<const Scene> scene_;  ///< null: none yet
   Bounds bounds_;                       ///< of its triangles
   HandCamera camera_;

@@ -99,6 +99,14 @@ void resolveAlpha(const FilmPart& part, const SampleCounts& counts, FloatImage& 
   }
 }
 
+void showErrors(const FilmPart& part, const SampleCounts& counts, FloatImage& image) {
+  for (std::size_t p = 0; p < part.pixelOrder.size(); ++p) {
+    const std::uint32_t n = counts.ofPixel(part.first + p);
+    image.pixels[placeOf(part, p, image)] = n >= 2 ? static_cast<float>(std::sqrt(varianceOfMean(part, p, n)))
+                                                   : std::numeric_limits<float>::infinity();
+  }
+}
+
 void showSamples(const FilmPart& part, const SampleCounts& counts, FloatImage& image) {
   for (std::size_t p = 0; p < part.pixelOrder.size(); ++p)
     image.pixels[placeOf(part, p, image)] = static_cast<float>(counts.ofPixel(part.first + p));

@@ -41,6 +41,10 @@ void addRadiance(const FilmPart& part, const SampleCounts& counts, double& total
 /// transmittance of the samples. Needs a film with coverage.
 void resolveAlpha(const FilmPart& part, const SampleCounts& counts, FloatImage& image);
 
+/// Puts the standard error of each pixel's mean into `image`, the root of its variance averaged over the
+/// channels, W/(m² sr), one channel. Needs planes of more than one sample; infinite with fewer than two.
+void showErrors(const FilmPart& part, const SampleCounts& counts, FloatImage& image);
+
 /// Puts the samples of each pixel into `image`, one channel.
 void showSamples(const FilmPart& part, const SampleCounts& counts, FloatImage& image);
 

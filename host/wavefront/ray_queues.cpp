@@ -22,6 +22,7 @@ std::uint32_t rayPlanesFor(const SceneFeatures& features) {
 }
 
 std::uint32_t hitPlanesFor(const SceneFeatures& features) {
+  if (features.has(Feature::COST)) return HIT_PLANES_COST;
   if (features.has(Feature::STRAIGHT)) return HIT_PLANES_STRAIGHT;
   return asksForDistances(features) ? HIT_PLANES : HIT_PLANES_WITHOUT_T;
 }

@@ -22,7 +22,7 @@ struct Segment {
 inline constexpr std::uint64_t kQueueFeatures =
     bitOf(Feature::TEXTURES) | bitOf(Feature::ABSORPTION) | bitOf(Feature::AOVS) | bitOf(Feature::FAR_PLANE) |
     bitOf(Feature::STRAIGHT) | bitOf(Feature::IMPULSES) | bitOf(Feature::BOTH_BRANCHES) |
-    bitOf(Feature::COVERAGE) | bitOf(Feature::SHADOWS);
+    bitOf(Feature::COVERAGE) | bitOf(Feature::SHADOWS) | bitOf(Feature::COST);
 
 class RayQueues {
  public:

@@ -2,7 +2,6 @@
 // parents in the order of kernels/compact.cl.
 #include "wavefront/ray_recorder.h"
 
-#include <bit>
 #include <glm/geometric.hpp>
 
 #include "kernels/shared/layout.h"
@@ -11,49 +10,36 @@ namespace whittle {
 
 RayRecorder::RayRecorder(Compute& compute, const RayQueues& queues, const DeviceScene& scene,
                          const SceneFeatures& features)
-    : compute_(compute), queues_(queues), scene_(scene), features_(features), entries_(2) {
+    : compute_(compute),
+      queues_(queues),
+      reader_(compute, queues),
+      scene_(scene),
+      features_(features),
+      entries_(2) {
   rays_.emplace_back();
   entries_[1] = {0};
 }
 
-std::vector<float> RayRecorder::plane(const Buffer& buffer, std::uint32_t plane, std::uint32_t first,
-                                      std::uint32_t count) {
-  std::vector<float> values(count);
-  const std::size_t at = static_cast<std::size_t>(plane) * queues_.capacity() + first;
-  compute_.read(buffer, at * sizeof(float), count * sizeof(float), values.data());
-  return values;
-}
-
-std::vector<glm::vec3> RayRecorder::vectors(const Buffer& buffer, std::uint32_t firstPlane,
-                                            std::uint32_t first, std::uint32_t count) {
-  std::vector<glm::vec3> values(count);
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto part = plane(buffer, firstPlane + static_cast<std::uint32_t>(axis), first, count);
-    for (std::uint32_t i = 0; i < count; ++i) values[i][axis] = part[i];
-  }
-  return values;
-}
-
-void RayRecorder::readRays(const Buffer& queue, Segment segment, std::uint32_t bounce) {
-  const auto& entries = entries_[bounce];
-  segment_.assign(entries.begin() + segment.begin, entries.begin() + segment.end);
-  const std::uint32_t count = segment.count();
-  const auto origins = vectors(queue, RAY_O, segment.begin, count),
-             directions = vectors(queue, RAY_D, segment.begin, count);
-  std::vector<glm::vec3> throughputs(count, glm::vec3(1.0F));
-  if (bounce > 1) throughputs = vectors(queue, RAY_THROUGHPUT, segment.begin, count);
+void RayRecorder::readRays(const ObservedSegment& s) {
+  const auto& entries = entries_[s.bounce];
+  segment_.assign(entries.begin() + s.segment.begin, entries.begin() + s.segment.end);
+  const std::uint32_t count = s.segment.count();
+  const auto origins = reader_.vectors(s.queue, RAY_O, s.segment.begin, count),
+             directions = reader_.vectors(s.queue, RAY_D, s.segment.begin, count),
+             throughputs = reader_.throughputs(s);
   for (std::uint32_t i = 0; i < count; ++i) {
     RayRecord& ray = of(i);
-    ray.round = bounce;
+    ray.round = s.bounce;
     ray.origin = origins[i], ray.direction = directions[i], ray.throughput = throughputs[i];
   }
 }
 
 void RayRecorder::readHits(std::uint32_t count) {
-  const auto triangles = plane(queues_.hits, HIT_TRIANGLE, 0, count),
-             b1 = plane(queues_.hits, HIT_B1, 0, count), b2 = plane(queues_.hits, HIT_B2, 0, count);
+  const auto triangles = reader_.plane<std::uint32_t>(queues_.hits, HIT_TRIANGLE, 0, count);
+  const auto b1 = reader_.plane<float>(queues_.hits, HIT_B1, 0, count),
+             b2 = reader_.plane<float>(queues_.hits, HIT_B2, 0, count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const auto index = std::bit_cast<std::uint32_t>(triangles[i]);
+    const std::uint32_t index = triangles[i];
     if (index == NO_HIT) continue;
     device::DeviceTriangle t;
     compute_.read(scene_.triangles, index * sizeof(t), sizeof(t), &t);
@@ -73,7 +59,8 @@ void RayRecorder::readImpulses(std::uint32_t count, std::uint32_t bounce) {
   for (std::uint32_t i = 0; i < count; ++i)
     for (std::uint32_t k = 0; k < sets; ++k) {
       if (flags_[i] & (ENTRY_ENDED0 << k)) {
-        const float share = plane(queues_.impulses, k * IMPULSE_PLANES + IMPULSE_THROUGHPUT, i, 1)[0];
+        const float share =
+            reader_.plane<float>(queues_.impulses, k * IMPULSE_PLANES + IMPULSE_THROUGHPUT, i, 1)[0];
         of(i).ended.push_back({std::abs(share), share < 0.0F});
       }
       if (!(flags_[i] & (ENTRY_IMPULSE0 << k))) continue;
@@ -85,36 +72,35 @@ void RayRecorder::readImpulses(std::uint32_t count, std::uint32_t bounce) {
     }
 }
 
-void RayRecorder::shaded(const Buffer& queue, Segment segment, std::uint32_t bounce, std::uint32_t light,
-                         const Buffer& radiance) {
-  const std::uint32_t count = segment.count();
+void RayRecorder::shaded(const ObservedSegment& s, std::uint32_t light) {
+  const std::uint32_t count = s.segment.count();
   if (light == 0) {
-    readRays(queue, segment, bounce);
+    readRays(s);
     readHits(count);
   }
   flags_.assign(count, 0);
   if (queues_.flags) compute_.read(queues_.flags, 0, count, flags_.data());
-  const auto local = vectors(radiance, 0, 0, count);
+  const auto local = reader_.vectors(s.radiance, 0, 0, count);
   for (std::uint32_t i = 0; i < count; ++i) {
     // Light that needs no shadow ray comes with its own round.
     of(i).local += light == 0 ? local[i] : local[i] - of(i).radiance;
     of(i).radiance = local[i];
   }
   if (queues_.shadows) {
-    const auto origins = vectors(queues_.shadows, SHADOW_O, 0, count),
-               directions = vectors(queues_.shadows, SHADOW_D, 0, count),
-               contributions = vectors(queues_.shadows, SHADOW_CONTRIBUTION, 0, count);
-    const auto lengths = plane(queues_.shadows, SHADOW_LENGTH, 0, count);
+    const auto origins = reader_.vectors(queues_.shadows, SHADOW_O, 0, count),
+               directions = reader_.vectors(queues_.shadows, SHADOW_D, 0, count),
+               contributions = reader_.vectors(queues_.shadows, SHADOW_CONTRIBUTION, 0, count);
+    const auto lengths = reader_.plane<float>(queues_.shadows, SHADOW_LENGTH, 0, count);
     for (std::uint32_t i = 0; i < count; ++i)
       if (flags_[i] & ENTRY_SHADOW)
         of(i).shadows.push_back({light, origins[i], directions[i], lengths[i], contributions[i], {}});
   }
-  if (light == 0) readImpulses(count, bounce);
+  if (light == 0) readImpulses(count, s.bounce);
 }
 
-void RayRecorder::lit(Segment segment, std::uint32_t light, const Buffer& radiance) {
-  const auto after = vectors(radiance, 0, 0, segment.count());
-  for (std::uint32_t i = 0; i < segment.count(); ++i) {
+void RayRecorder::lit(const ObservedSegment& s, std::uint32_t light) {
+  const auto after = reader_.vectors(s.radiance, 0, 0, s.segment.count());
+  for (std::uint32_t i = 0; i < s.segment.count(); ++i) {
     RayRecord& ray = of(i);
     if (!ray.shadows.empty() && ray.shadows.back().light == light)
       ray.shadows.back().arrived = after[i] - ray.radiance;

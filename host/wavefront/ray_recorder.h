@@ -7,9 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "cl/program.h"
 #include "wavefront/device_scene.h"
-#include "wavefront/ray_queues.h"
+#include "wavefront/wavefront_observer.h"
 
 namespace whittle {
 
@@ -49,44 +48,27 @@ struct RayRecord {
   std::vector<EndedRecord> ended;
 };
 
-/// What a wavefront tells whoever watches it, between two launches. Entry i of a segment is entry
-/// segment.begin + i of the ray queue, and i of all other queues.
-class WavefrontObserver {
- public:
-  virtual ~WavefrontObserver() = default;
-  /// Shading has found the candidates of a light round (0: with everything else); their shadow rays are not
-  /// traced yet.
-  virtual void shaded(const Buffer& queue, Segment segment, std::uint32_t bounce, std::uint32_t light,
-                      const Buffer& radiance) = 0;
-  /// They are.
-  virtual void lit(Segment segment, std::uint32_t light, const Buffer& radiance) = 0;
-};
-
 class RayRecorder : public WavefrontObserver {
  public:
   /// `features`: those of the render.
   RayRecorder(Compute& compute, const RayQueues& queues, const DeviceScene& scene,
               const SceneFeatures& features);
 
-  void shaded(const Buffer& queue, Segment segment, std::uint32_t bounce, std::uint32_t light,
-              const Buffer& radiance) override;
-  void lit(Segment segment, std::uint32_t light, const Buffer& radiance) override;
+  void shaded(const ObservedSegment& s, std::uint32_t light) override;
+  void lit(const ObservedSegment& s, std::uint32_t light) override;
 
   /// Parents come before their children.
   const std::vector<RayRecord>& rays() const { return rays_; }
 
  private:
-  std::vector<float> plane(const Buffer& buffer, std::uint32_t plane, std::uint32_t first,
-                           std::uint32_t count);
-  std::vector<glm::vec3> vectors(const Buffer& buffer, std::uint32_t firstPlane, std::uint32_t first,
-                                 std::uint32_t count);
-  void readRays(const Buffer& queue, Segment segment, std::uint32_t bounce);
+  void readRays(const ObservedSegment& s);
   void readHits(std::uint32_t count);
   void readImpulses(std::uint32_t count, std::uint32_t bounce);
   RayRecord& of(std::uint32_t entry) { return rays_[segment_[entry]]; }
 
   Compute& compute_;
   const RayQueues& queues_;
+  QueueReader reader_;
   const DeviceScene& scene_;
   const SceneFeatures& features_;
   std::vector<RayRecord> rays_;

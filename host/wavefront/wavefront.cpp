@@ -99,17 +99,19 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
   const Candidates found = countCandidates(segment, mayEnd(bounce));
   stages_.addBytes<stages::Shade>(stages::Shade::bytesOf(found.shadow, found.impulse));
   for (std::size_t kind = 0; kind < found.ended.size(); ++kind) tally_.ended[kind] += found.ended[kind];
-  if (observer_) observer_->shaded(queue, segment, bounce, 0, *radiance_);
+  const ObservedSegment observed{queue, segment, bounce, *radiance_, *pixelOrder_, batch_};
+  if (observer_) observer_->shaded(observed, 0);
   occlude(compactShadow(segment, found.shadow));
-  if (observer_) observer_->lit(segment, 0, *radiance_);
+  if (observer_) observer_->lit(observed, 0);
   for (std::uint32_t light = 1; light < setup_.scene.lightCount; ++light) {
     shadeLight(queue, segment, bounce, light);
     const Candidates lit = countCandidates(segment, false);
     stages_.addBytes<stages::ShadeLight>(stages::Shade::bytesOf(lit.shadow, 0));
-    if (observer_) observer_->shaded(queue, segment, bounce, light, *radiance_);
+    if (observer_) observer_->shaded(observed, light);
     occlude(compactShadow(segment, lit.shadow));
-    if (observer_) observer_->lit(segment, light, *radiance_);
+    if (observer_) observer_->lit(observed, light);
   }
+  if (observer_) observer_->finished(observed);
   if (bounce > 1) accumulate(queue, segment);
   return bounce < setup_.rounds ? compactImpulse(queue, segment, bounce, found.impulse, next) : 0;
 }

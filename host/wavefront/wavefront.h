@@ -12,8 +12,8 @@
 #include "kernels/shared/layout.h"
 #include "wavefront/device_scene.h"
 #include "wavefront/ray_queues.h"
-#include "wavefront/ray_recorder.h"
 #include "wavefront/stage_runner.h"
+#include "wavefront/wavefront_observer.h"
 
 namespace whittle {
 

@@ -58,6 +58,7 @@
 #define BIT_AMBIENT 49                     // ambient light
 #define BIT_DEEP_TEXTURES 50               // textures of 16 bits
 #define BIT_COVERAGE 51                    // alpha channel
+#define BIT_COST 52                        // search cost
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

@@ -194,6 +194,11 @@ WHITTLE_STRUCT(Batch) {
 // the two distances.
 #define HIT_ORDER 4
 #define HIT_PLANES_STRAIGHT 5
+// With COST also what the search visited (uint bits): nodes opened and triangles tested, of a packet that goes
+// together those of the whole packet.
+#define HIT_NODES 5
+#define HIT_TESTS 6
+#define HIT_PLANES_COST 7
 #define COAT_ORDER 0.99999905f  // 1 - 2^-20: above the rounding of two distances, 5 um at 5 m
 #define NO_HIT 0xffffffffu
 

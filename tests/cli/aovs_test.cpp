@@ -41,16 +41,36 @@ std::vector<float> channelOf(const std::filesystem::path& file, const std::strin
   return values;
 }
 
-const Names kAll{"R",        "G",        "B",        "Z",        "albedo.R",    "albedo.G",
-                 "albedo.B", "normal.X", "normal.Y", "normal.Z", "primitive.V", "samples.V"};
+const Names kAll{"R",        "G",        "B",           "Z",
+                 "albedo.R", "albedo.G", "albedo.B",    "normal.X",
+                 "normal.Y", "normal.Z", "primitive.V", "samples.V",
+                 "error.V",  "bounce.V", "cost.nodes",  "cost.triangles"};
 
 struct EveryAov {
   const Folder folder;
-  const Outcome run =
-      runWhittle(smallRender({"-o", "a.exr", "--aov", "depth=depth.exr", "--aov", "normal=normal.exr",
-                              "--aov", "albedo=albedo.exr", "--aov", "primitive=primitive.exr", "--aov",
-                              "samples=samples.exr", "--aov", "all=all.exr", "--rays-per-pixel", "2"}),
-                 {folder.path(), {}});
+  const Outcome run = runWhittle(smallRender({"-o",
+                                              "a.exr",
+                                              "--aov",
+                                              "depth=depth.exr",
+                                              "--aov",
+                                              "normal=normal.exr",
+                                              "--aov",
+                                              "albedo=albedo.exr",
+                                              "--aov",
+                                              "primitive=primitive.exr",
+                                              "--aov",
+                                              "samples=samples.exr",
+                                              "--aov",
+                                              "error=error.exr",
+                                              "--aov",
+                                              "bounce=bounce.exr",
+                                              "--aov",
+                                              "cost=cost.exr",
+                                              "--aov",
+                                              "all=all.exr",
+                                              "--rays-per-pixel",
+                                              "2"}),
+                                 {folder.path(), {}});
 };
 const EveryAov& everyAov() {
   static const EveryAov made;
@@ -65,6 +85,7 @@ TEST(Aovs, HaveTheNamesThatCompositorsLookFor) {
   EXPECT_EQ(channelsOf(folder / "albedo.exr"), (Names{"albedo.B", "albedo.G", "albedo.R"}));
   EXPECT_EQ(channelsOf(folder / "primitive.exr"), Names{"primitive.V"});
   EXPECT_EQ(channelsOf(folder / "samples.exr"), Names{"samples.V"});
+  EXPECT_EQ(channelsOf(folder / "cost.exr"), (Names{"cost.nodes", "cost.triangles"}));
   EXPECT_EQ(channelsOf(folder / "a.exr"), (Names{"B", "G", "R"}));
   EXPECT_EQ(channelsOf(folder / "all.exr"), sorted(kAll));
 }
@@ -72,15 +93,15 @@ TEST(Aovs, HaveTheNamesThatCompositorsLookFor) {
 TEST(Aovs, LayersHoldWhatTheFilesHold) {
   const auto& [folder, run] = everyAov();
   ASSERT_EQ(run.status, 0) << run.err;
-  for (const char* file : {"depth", "normal", "albedo", "primitive", "samples", "a"}) {
-    const FloatImage alone = readFloatImage(folder / (std::string(file) + ".exr"));
+  for (const char* file :
+       {"depth", "normal", "albedo", "primitive", "samples", "error", "bounce", "cost", "a"}) {
     const Names names = file == std::string("a") ? Names{"R", "G", "B"} : cli::channelNamesOf(file);
-    ASSERT_EQ(static_cast<int>(names.size()), alone.channels);
-    for (std::size_t c = 0; c < names.size(); ++c) {
-      const std::vector<float> layer = channelOf(folder / "all.exr", names[c]);
+    for (const auto& name : names) {
+      const std::vector<float> layer = channelOf(folder / "all.exr", name),
+                               alone = channelOf(folder / (std::string(file) + ".exr"), name);
+      ASSERT_EQ(layer.size(), alone.size()) << name;
       for (std::size_t p = 0; p < layer.size(); ++p)
-        ASSERT_EQ(std::memcmp(&layer[p], &alone.pixels[p * names.size() + c], sizeof(float)), 0)
-            << names[c] << " of pixel " << p;
+        ASSERT_EQ(std::memcmp(&layer[p], &alone[p], sizeof(float)), 0) << name << " of pixel " << p;
     }
   }
 }

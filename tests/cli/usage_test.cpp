@@ -89,6 +89,7 @@ std::vector<Mistake> mistakes() {
       {"AovUnknownToInfo", {"info", s, "--aov", "colour"}, {"--aov", "'colour'", "depth, normal"}},
       {"AovNotExrToInfo", {"info", s, "--aov", "depth=a.png"}, {"--aov", "a.png", ".exr"}},
       {"AdaptiveWithoutACountToInfo", {"info", s, "--adaptive"}, {"--adaptive", "--rays-per-pixel"}},
+      {"AovErrorOfOneRay", {"render", s, "--aov", "error=a.exr"}, {"--aov error", "--rays-per-pixel 2"}},
       {"AovNotExr", {"render", s, "--aov", "depth=a.png"}, {"--aov", "a.png", ".exr"}},
       {"AovUnknownToReference",
        {"reference", s, "-o", "a.exr", "--aov", "normal=b.exr"},

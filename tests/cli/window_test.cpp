@@ -216,9 +216,9 @@ TEST_F(WindowTest, ClosesWhileItCompiles) {
 
 TEST_F(WindowTest, SavesWhatItShows) {
   expectPlayed("wait refined\nkey Ctrl+S\nwait 0.2\n");
-  const Codes png = read("whittle-001.png");
+  const Codes png = read("cornell_box-001.png");
   EXPECT_EQ(png.width, 160);
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "whittle-001.exr"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "cornell_box-001.exr"));
 }
 
 TEST_F(WindowTest, WithoutADisplayItSaysSo) {

@@ -59,9 +59,12 @@ void wholeField(ViewModel& model, PanelState& state, const Control& c, const std
 }
 
 void choice(ViewModel& model, PanelState& state, const Control& c, const std::string& value) {
-  if (ImGui::BeginCombo("##value", value.c_str())) {
-    for (const auto& word : c.words)
-      if (ImGui::Selectable(word.c_str(), word == value)) apply(model, state, c, word);
+  const auto caption = [&](std::size_t i) { return c.captions.empty() ? c.words[i] : c.captions[i]; };
+  const auto chosen =
+      static_cast<std::size_t>(std::find(c.words.begin(), c.words.end(), value) - c.words.begin());
+  if (ImGui::BeginCombo("##value", chosen < c.words.size() ? caption(chosen).c_str() : value.c_str())) {
+    for (std::size_t i = 0; i < c.words.size(); ++i)
+      if (ImGui::Selectable(caption(i).c_str(), i == chosen)) apply(model, state, c, c.words[i]);
     ImGui::EndCombo();
   }
   tip(c.tip);
@@ -151,6 +154,34 @@ void settingsPanel(ViewModel& model, PanelState& state) {
     }
     if (isOpen) controlRow(model, state, c);
   }
+}
+
+void filePanel(ViewModel& model, PanelState& state) {
+  if (!ImGui::CollapsingHeader("File", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  const float width = ImGui::GetContentRegionAvail().x, button = ImGui::GetFrameHeight();
+  std::array<char, 1024> text{};
+  std::strncpy(text.data(), state.fileText.c_str(), text.size() - 1);
+  ImGui::SetNextItemWidth(width - button - 4);
+  const bool entered = ImGui::InputTextWithHint("##file", "a file to open, then Enter", text.data(),
+                                                text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  tip(".glb, .gltf: a scene; .hdr, .exr: what surrounds it. Or drop one on the window.");
+  state.fileText = text.data();
+  const auto open = [&](const std::filesystem::path& file) {
+    model.open(file);
+    state.fileText.clear();
+  };
+  if (entered && !state.fileText.empty()) open(state.fileText);
+  ImGui::SameLine(0, 4);
+  if (ImGui::BeginCombo("##recent", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft)) {
+    const auto files = model.recentFiles();
+    if (files.empty()) ImGui::TextDisabled("no file was opened yet");
+    for (const auto& file : files) {
+      if (ImGui::Selectable(file.filename().c_str())) open(file);
+      tip(file.string());
+    }
+    ImGui::EndCombo();
+  }
+  tip("recent files");
 }
 
 void cameraPanel(ViewModel& model) {

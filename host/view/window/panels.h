@@ -12,6 +12,7 @@ namespace whittle::view {
 struct PanelState {
   std::map<std::string, std::string> edited;    ///< texts under way, by the control's id
   std::map<std::string, std::string> problems;  ///< of values that were not taken
+  std::string fileText;                         ///< of a file to open
   bool showsHelp = false;
   bool showsPanels = true;
   bool isLight = false;
@@ -22,6 +23,7 @@ struct PanelState {
 void tip(const std::string& text);
 
 /// Into the current ImGui window.
+void filePanel(ViewModel& model, PanelState& state);
 void settingsPanel(ViewModel& model, PanelState& state);
 void statisticsPanel(const ViewModel& model);
 void cameraPanel(ViewModel& model);

@@ -164,6 +164,7 @@ void Window::drawPanels(float width, float height) {
   const float left = shown ? kSettingsWidth * unit : 0, right = shown ? kStatisticsWidth * unit : 0;
   picture_ = pictureRect(left, 0, std::max(1.0F, width - left - right), std::max(1.0F, height - line));
   drawPicture();
+  drawScale();
   drawRays(hoveredRay_);
   constexpr auto kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                           ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoBringToFrontOnFocus;
@@ -175,6 +176,7 @@ void Window::drawPanels(float width, float height) {
   };
   if (shown) {
     panel("settings", 0, 0, left, height - line, [&] {
+      filePanel(model_, panels_);
       cameraPanel(model_);
       settingsPanel(model_, panels_);
     });

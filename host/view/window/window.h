@@ -52,6 +52,7 @@ class Window : public Stage {
   void frame();
   void drawPanels(float width, float height);
   void drawPicture();
+  void drawScale();
   void drawRays(int emphasised);
   void upload();
   void writeShot();

@@ -113,7 +113,7 @@ void Window::shortcuts(int key, bool ctrl) {
   if (ctrl) {
     if (key == 'Q') quit();
     if (key == 'R') model_.reload();
-    if (key == 'S') model_.save("whittle");
+    if (key == 'S') model_.save();
     if (key == 'C') glfwSetClipboardString(window_, model_.cameraText().c_str());
     if (key == 'V') {
       const char* const text = glfwGetClipboardString(window_);
@@ -152,7 +152,7 @@ void Window::shortcuts(int key, bool ctrl) {
       panels_.showsPanels = !panels_.showsPanels;
       break;
     case GLFW_KEY_F12:
-      model_.save("whittle");
+      model_.save();
       break;
     case GLFW_KEY_ESCAPE:
       if (panels_.showsHelp)

@@ -1,4 +1,5 @@
 // The picture in the window: its texture, its place, and the rays of a pixel over it.
+#include <fmt/format.h>
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
@@ -56,6 +57,35 @@ void Window::drawPicture() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   draw->AddImage(std::bit_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_)), {picture_.x, picture_.y},
                  {picture_.x + picture_.width, picture_.y + picture_.height});
+}
+
+/// What the colours mean, under the picture, or at its lower left where there is no room.
+void Window::drawScale() {
+  const std::optional<ColorScale>& scale = model_.picture().scale;
+  if (!scale || uploaded_ == 0) return;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const float line = ImGui::GetTextLineHeight(), margin = line / 2;
+  const float width = std::min(line * 18, picture_.width - 4 * margin);
+  if (width < line * 6 || picture_.height < 4 * line) return;
+  const float height = 2.5F * line + 2 * margin, bottom = picture_.y + picture_.height;
+  const bool hasRoom = ImGui::GetIO().DisplaySize.y - bottom > height + 3 * line;
+  const ImVec2 at{picture_.x + margin, hasRoom ? bottom + 2 * margin : bottom - height};
+  draw.AddRectFilled({at.x - margin, at.y - margin}, {at.x + width + margin, at.y + 2.5F * line + margin},
+                     IM_COL32(0, 0, 0, 190), 4);
+  constexpr int kSteps = 64;
+  for (int i = 0; i < kSteps; ++i) {
+    const Code code = rampAt((i + 0.5) / kSteps);
+    const float step = width / kSteps, left = at.x + step * static_cast<float>(i);
+    draw.AddRectFilled({left, at.y + line * 1.1F}, {left + step + 0.5F, at.y + line * 1.5F},
+                       IM_COL32(code[0], code[1], code[2], 255));
+  }
+  draw.AddText(at, IM_COL32_WHITE, scale->quantity.c_str());
+  for (const double share : {0.0, 0.5, 1.0}) {
+    const std::string number = fmt::format("{:.3g}", scale->valueAt(share));
+    const float room = width - ImGui::CalcTextSize(number.c_str()).x;
+    draw.AddText({at.x + static_cast<float>(share) * room, at.y + 1.6F * line}, IM_COL32_WHITE,
+                 number.c_str());
+  }
 }
 
 namespace {

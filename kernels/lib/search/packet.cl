@@ -26,6 +26,9 @@ typedef struct {
 #if HAS(STRAIGHT)
   float16 order;  // of the nearest so far; < 0 as t
 #endif
+#if HAS(COST)
+  uint16 nodes, tests;  // as in Hit; of the whole packet as long as it goes together
+#endif
 } PacketHit;
 
 INLINE float16 boxInverse16(float16 d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign((float16)(INFINITY), d); }
@@ -189,6 +192,7 @@ INLINE int16 comesAfter16(const SceneView* scene, const Packet* p, uint index, f
 INLINE int testNearestPacket(const SceneView* scene, const Packet* p, __global const float* triangle, uint stride,
                              uint index, PacketHit* best) {
   float16 t = (float16)(0.0f), v = t, w = t, det = t;
+  COUNT(best->tests, 1);
 #if HAS(STRAIGHT)
   int16 met = intersectPacket(p, triangle, stride, best->order * ORDER_WIDENING, &t, &v, &w, &det);
   if (!anyOf16(met)) return 0;

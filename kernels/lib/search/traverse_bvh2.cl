@@ -26,7 +26,17 @@ typedef struct {
 #if HAS(STRAIGHT)
   float order;  // of the nearest so far
 #endif
+#if HAS(COST)
+  uint nodes, tests;  // opened so far; triangles tested
+#endif
 } Hit;
+
+/// What a search visits is counted for COST alone.
+#if HAS(COST)
+#define COUNT(total, more) ((total) += (more))
+#else
+#define COUNT(total, more) ((void)0)
+#endif
 
 /// Nothing met yet, as far as tMax.
 INLINE Hit noHit(float tMax) {
@@ -36,6 +46,9 @@ INLINE Hit noHit(float tMax) {
   hit.b1 = hit.b2 = 0.0f;
 #if HAS(STRAIGHT)
   hit.order = tMax;
+#endif
+#if HAS(COST)
+  hit.nodes = hit.tests = 0;
 #endif
   return hit;
 }
@@ -64,6 +77,7 @@ INLINE float childEntry(const Ray* r, __global const Node* node, int c, float tM
 INLINE void testNearest(const SceneView* scene, const Ray* r, uint index, Hit* best) {
   __global const DeviceTriangle* triangle = scene->triangles + index;
   Candidate c;
+  COUNT(best->tests, 1);
 #if HAS(STRAIGHT)
   if (!intersectTriangle(r, triangle, best->order * ORDER_WIDENING, &c)) return;
   const float order = orderOf(scene, index, c.t);
@@ -144,6 +158,7 @@ Hit nearestSingle(const SceneView* scene, const Ray* r) {
       for (uint i = first; i < first + count; ++i) testNearest(scene, r, i, &best);
     } else {
       __global const Node* node = scene->nodes + current;
+      COUNT(best.nodes, 1);
       const float t0 = childEntry(r, node, 0, best.t);
       const float t1 = childEntry(r, node, 1, best.t);
       if (t0 < INFINITY || t1 < INFINITY) {

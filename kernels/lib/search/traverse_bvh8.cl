@@ -18,6 +18,9 @@ typedef struct {
   uint passedPrimitive[PACKET_RAYS];
   float order[PACKET_RAYS];  // afterwards that of the nearest hit
 #endif
+#if HAS(COST)
+  uint nodes[PACKET_RAYS], tests[PACKET_RAYS];  // afterwards, as in Hit
+#endif
 } RayTable;
 
 /// A ray of the table, as its tests want it.
@@ -136,6 +139,7 @@ INLINE uint intersectLeaf(const Bvh8Ray* r, const Leaf* leaf, float tMax, float8
 INLINE void testNearestLeaf(const SceneView* scene, const Bvh8Ray* r, int child, Hit* best) {
   const Leaf leaf = leafOf(scene, child);
   float8 t8, v8, w8, det8;
+  COUNT(best->tests, leaf.count);
 #if HAS(STRAIGHT)
   uint bits = intersectLeaf(r, &leaf, best->order * ORDER_WIDENING, &t8, &v8, &w8, &det8);
 #else
@@ -224,6 +228,7 @@ INLINE int step(const SceneView* scene, Walk* w) {
     return 1;
   }
   float8 entry;
+  COUNT(w->best.nodes, 1);
   const int8 entered = childEntries8(&w->r, scene->bvh8Nodes + (size_t)child * BVH8_NODE_FLOATS, w->best.t, &entry);
   vstore8(keys, w->depth, w->waiting);
   w->groups[w->depth] = w->group;
@@ -245,6 +250,7 @@ INLINE int startWalk(const SceneView* scene, const RayTable* rays, uint* next, W
   if (lane == PACKET_RAYS) return 0;
   w->r = bvh8Ray(rays, lane);
   w->best = noHit(rays->t[lane]);
+  COUNT(w->best.nodes, 1);
   w->limit = keyLimit(w->best.t);
   float8 entry;
   w->keys = childKeys(childEntries8(&w->r, scene->bvh8Nodes, w->best.t, &entry), entry);
@@ -260,11 +266,18 @@ INLINE void endWalk(const Walk* w, RayTable* rays) {
 #if HAS(STRAIGHT)
   rays->order[w->r.lane] = w->best.order;
 #endif
+#if HAS(COST)
+  rays->nodes[w->r.lane] = w->best.nodes;
+  rays->tests[w->r.lane] = w->best.tests;
+#endif
 }
 
 /// Nearest hits. Two rays take turns, so that one computes while the other waits for memory or for its own last result.
 void nearestApart(const SceneView* scene, RayTable* rays) {
   for (int i = 0; i < PACKET_RAYS; ++i) rays->triangle[i] = NO_HIT, rays->b1[i] = rays->b2[i] = 0.0f;
+#if HAS(COST)
+  for (int i = 0; i < PACKET_RAYS; ++i) rays->nodes[i] = rays->tests[i] = 0;
+#endif
   uint next = 0;
   Walk a, b;
   int hasA = startWalk(scene, rays, &next, &a);

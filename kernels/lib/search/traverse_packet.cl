@@ -178,6 +178,10 @@ void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
 #if HAS(STRAIGHT)
     best->order = vload16(0, rays.order);
 #endif
+#if HAS(COST)
+    best->nodes = vload16(0, rays.nodes);
+    best->tests = vload16(0, rays.tests);
+#endif
     return;
   }
   // As a single ray's way (Walk), but that a child is looked at more closely before it is visited.
@@ -188,6 +192,7 @@ void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
   uint limit = keyLimit(tMax);
   float8 entry;
   uint8 keys = childKeys(packetChildren(&bounds, scene->bvh8Nodes, tMax, &entry), entry);
+  COUNT(best->nodes, 1);
   for (;;) {
     const uint least = least8(keys);
     if (least > limit) {
@@ -214,6 +219,7 @@ void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
       }
       continue;
     }
+    COUNT(best->nodes, 1);
     const int8 entered = packetChildren(&bounds, scene->bvh8Nodes + (size_t)child * BVH8_NODE_FLOATS, tMax, &entry);
     vstore8(keys, depth, waiting);
     groups[depth] = group;

@@ -55,9 +55,7 @@ class Viewer : public ViewModel {
   bool hasPicture() const override { return shown_.result && shown_.request == request_; }
   const std::vector<Message>& messages() const override { return messages_; }
   const std::vector<Control>& controls() const override { return services_.controls; }
-  std::string value(const std::string& id) const override {
-    return id == kLayerControl ? layer_ : services_.value(settings_, id);
-  }
+  std::string value(const std::string& id) const override;
   std::string set(const std::string& id, const std::string& text) override;
 
   void orbit(double right, double up) override;
@@ -78,7 +76,7 @@ class Viewer : public ViewModel {
   void pasteCamera(const std::string& text) override;
   void setMoving(bool isMoving) override;
   void explain(double x, double y) override;
-  void closeExplanation() override { explained_.reset(); }
+  void closeExplanation() override { explained_.reset(), followed_ = 0; }
   const Explained* explained() const override { return explained_ ? &*explained_ : nullptr; }
 
   void open(const std::filesystem::path& file) override;
@@ -102,12 +100,14 @@ class Viewer : public ViewModel {
   Request request() const;
   /// A pixel's rays, fresh from the render's thread.
   struct Followed {
-    std::shared_ptr<const Scene> scene;
-    Camera camera;
-    double aspect = 1;
-    int x = 0, y = 0, samples = 1;
+    std::uint64_t number = 0;  ///< see followed_
+    Request request;
+    int x = 0, y = 0;
     RayTree tree;
+    std::optional<RayTree> reference;
   };
+  void follow(int x, int y);
+  void deliver(const Followed& followed);
   static Explained explainedOf(Followed followed);
   void ask();
   void cameraMoved();
@@ -119,6 +119,7 @@ class Viewer : public ViewModel {
   void makeCodes();
   void lookAtFile();
   std::string showLayer(const std::string& layer);
+  std::string switchReference(const std::string& text);
 
   Services services_;
   Settings settings_;
@@ -139,9 +140,12 @@ class Viewer : public ViewModel {
   std::filesystem::file_time_type written_{}, writing_{};
   std::chrono::steady_clock::time_point lookedAt_{};
   std::optional<Explained> explained_;
-  std::mutex mutex_;  ///< of loaded_ and followed_
+  bool comparesWithReference_ = false;
+  std::uint64_t follows_ = 0;   ///< how often a pixel's rays were asked for
+  std::uint64_t followed_ = 0;  ///< the time whose rays are still wanted; 0: none is
+  std::mutex mutex_;            ///< of loaded_ and delivered_
   std::optional<Loaded> loaded_;
-  std::optional<Followed> followed_;
+  std::optional<Followed> delivered_;
   LiveRender live_;  ///< last: its thread uses services_ and loaded_
 };
 

@@ -243,7 +243,7 @@ RenderSession::State::Prepared RenderSession::State::prepare(const Scene& from, 
 
   say(hooks, "compiling kernels");
   const auto compiling = Clock::now();
-  const std::size_t programsBefore = open.programs.size();
+  const std::uint64_t programsBefore = open.programs.total();
   auto compiled = std::async(std::launch::async,
                              [&] { return compileKernels(open, settings, decisions, hooks, compiling); });
   const auto allocating = Clock::now();
@@ -253,7 +253,7 @@ RenderSession::State::Prepared RenderSession::State::prepare(const Scene& from, 
   provideQueues(open.compute, settings, decisions, log);
   Compiled built = compiled.get();
   log.add("compile kernels", compiling, built.seconds);
-  work.programs = static_cast<int>(open.programs.size() - programsBefore);
+  work.programs = static_cast<int>(open.programs.total() - programsBefore);
   return {open, std::move(decisions), std::move(built.programs), built.seconds, pictureSeconds};
 }
 

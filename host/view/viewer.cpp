@@ -113,13 +113,24 @@ Request Viewer::request() const {
 }
 
 void Viewer::ask() {
-  if (!scene_) return;
+  if (!scene_ || !hasMemory()) return;
   closeExplanation();  // of another picture
   request_ = live_.ask(request());
 }
 
+/// Where a picture would take too much, the one before stays.
+bool Viewer::hasMemory() {
+  try {
+    services_.checkPicture(settings_);
+  } catch (const InputError& e) {
+    if (messages_.empty() || messages_.back().text != e.what()) say(true, e.what());
+    return false;
+  }
+  return true;
+}
+
 void Viewer::explain(double x, double y) {
-  if (!scene_ || !(x >= 0 && x < 1 && y >= 0 && y < 1)) return;
+  if (!scene_ || !(x >= 0 && x < 1 && y >= 0 && y < 1) || !hasMemory()) return;
   follow(static_cast<int>(x * settings_.width), static_cast<int>(y * settings_.height));
 }
 
@@ -400,6 +411,7 @@ std::string Viewer::stateJson() const {
                    {"programs", p.work.programs},
                    {"scene", p.work.scene ? 1 : 0},
                    {"messages", messages_.size()},
+                   {"message", messages_.empty() ? "" : messages_.back().text},
                    {"explainedRays", explained_ ? explained_->tree.rays.size() : 0},
                    {"isCompared", explained_ && !explained_->verdict.empty()},
                    {"parts", explained_ && explained_->parts}};

@@ -29,6 +29,8 @@ struct Services {
   /// Reads a scene on the render's thread: settles what the settings leave to it, and adds notes. `file`: a
   /// scene or an environment, empty: the same as before. Throws InputError.
   std::function<Scene(const std::filesystem::path& file, Settings&, std::vector<std::string>& notes)> load;
+  /// Throws InputError where a picture of these settings takes more memory than there is.
+  std::function<void(const Settings&)> checkPicture;
   /// Codes of a picture, RGBA.
   std::function<std::vector<std::uint8_t>(const FloatImage&, const Scene&, const Settings&)> codes;
   std::function<std::string(const Camera&, const glm::dvec3& origin)> cameraText;
@@ -98,6 +100,7 @@ class Viewer : public ViewModel {
   void takeOver(Loaded loaded);
   void settle(const Loaded& loaded);
   Request request() const;
+  bool hasMemory();
   /// A pixel's rays, fresh from the render's thread.
   struct Followed {
     std::uint64_t number = 0;  ///< see followed_

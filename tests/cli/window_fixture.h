@@ -71,7 +71,9 @@ class WindowTest : public testing::Test {
     std::vector<std::string> args{"view", "--script", "script"};
     if (!file.empty()) args.insert(args.begin() + 1, file);
     args.insert(args.end(), more.begin(), more.end());
-    return runWhittle(args, {folder_.path(), {{"DISPLAY", display_.name}, {"LIBGL_ALWAYS_SOFTWARE", "1"}}});
+    RunOptions options{folder_.path(), {{"DISPLAY", display_.name}, {"LIBGL_ALWAYS_SOFTWARE", "1"}}};
+    options.env.insert(options.env.end(), environment_.begin(), environment_.end());
+    return runWhittle(args, options);
   }
   void expectPlayed(const std::string& script, std::vector<std::string> more = kSmall,
                     const std::string& file = scene("cornell_box.glb")) {
@@ -105,6 +107,7 @@ class WindowTest : public testing::Test {
 
   VirtualDisplay display_;
   Folder folder_;
+  std::vector<std::pair<std::string, std::string>> environment_;  ///< of the window, besides the display
 };
 
 }  // namespace whittle::test

@@ -26,8 +26,8 @@ class KeptPrograms {
   std::size_t size() const { return programs_.size(); }
 
  private:
-  /// A render has three. Sixteen renders of which no two share one are more switches than a hand throws to and
-  /// fro.
+  /// A render has three. Sixteen renders of which no two share one are more switches than a hand throws to
+  /// and fro.
   static constexpr std::size_t kMost = 48;
 
   std::size_t most_;

@@ -191,17 +191,17 @@ MemoryBudget budgetOf(const SceneOptions& options) {
   return MemoryBudget(options.memory.value_or(memoryLimitOfMachine()));
 }
 
+void promisePicture(MemoryBudget& budget, const CommandCosts& costs, const Settings& settings) {
+  budget.promise(costs.picture(settings), fmt::format("a picture of {}×{}", settings.width, settings.height),
+                 MemoryBudget::Cause::CommandLine);
+}
+
 Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings& settings,
                 MemoryBudget& budget, Notices& notices) {
   nowDoing("reading the scene");
-  const auto holdPicture = [&] {
-    budget.promise(costs.picture(settings),
-                   fmt::format("a picture of {}×{}", settings.width, settings.height),
-                   MemoryBudget::Cause::CommandLine);
-  };
   const bool hasSize = given(options.width) == given(options.height);
   budget.promiseProgram(costs.programBytes);
-  if (hasSize) holdPicture();
+  if (hasSize) promisePicture(budget, costs, settings);
   LoadOptions load;
   load.memory = &budget;
   load.laterTriangleBytes = costs.triangleBytes;
@@ -214,7 +214,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   load.defaultBackground = options.defaultBackground && options.background.empty();
   Scene scene = loadGltf(options.file, load, notices);
   settleSize(options, scene, settings);
-  if (!hasSize) holdPicture();
+  if (!hasSize) promisePicture(budget, costs, settings);
   if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))
     notices.note("something lies beyond the camera's zfar; --clip-far leaves it out");
   applyBackground(scene, options.background, settings, budget, notices);

@@ -48,6 +48,8 @@ struct CommandCosts {
 
 /// Held against --memory-limit.
 MemoryBudget budgetOf(const SceneOptions& options);
+/// What a picture of these settings takes. Throws InputError where that is too much.
+void promisePicture(MemoryBudget& budget, const CommandCosts& costs, const Settings& settings);
 
 /// Loads, applies the background, prints notices to standard error (quiet: warnings only). Settles what the
 /// settings leave to the scene: one side of the picture where the other alone was given, and the camera.

@@ -1,6 +1,7 @@
 // whittle render: the OpenCL wavefront, from a glTF file to pictures and statistics.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -22,8 +23,10 @@
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/speech.h"
+#include "reference/reference.h"
 #include "render/explanation.h"
 #include "render/peak_memory.h"
+#include "render/render_session.h"
 #include "render/renderer.h"
 #include "report/profile_table.h"
 #include "report/text.h"
@@ -43,6 +46,7 @@ struct RenderOptions {
   std::vector<std::string> aovTexts;
   std::filesystem::path stats, trace, reference, kernelFolder;
   std::optional<glm::ivec2> explain;  ///< a pixel
+  bool withReference = false;         ///< --explain beside the reference
   bool json = false;
   bool profile = false;
 
@@ -129,8 +133,12 @@ void tellExplanation(const Scene& scene, const RenderOptions& o) {
   hooks.compiler = "/proc/self/exe";
   ProgressBar bar(o.scene.quiet);
   hooks.phase = [&](const std::string& text) { bar.phase(text); };
-  const Explanation explanation{
-      x, y, explainingErrors(o, [&] { return RenderSession().explain(scene, o.settings, x, y, hooks); })};
+  Explanation explanation{
+      x, y, explainingErrors(o, [&] { return RenderSession().explain(scene, o.settings, x, y, hooks); }), {}};
+  if (o.withReference) {
+    bar.phase("tracing in double precision");
+    explanation.reference = referenceTrees(scene, o.settings, x, y);
+  }
   bar.clear();
   if (o.json)
     tellJson(explanationToJson(explanation, scene)
@@ -254,8 +262,10 @@ int runRender(RenderOptions& o) {
   Notices notices;
   notices.notes = uselessOptions(o.settings);
   MemoryBudget budget = budgetOf(o.scene);
-  Scene scene =
-      loadScene(o.scene, {kTriangleBytes, kRuntimeBytes, pictureBytes}, o.settings, budget, notices);
+  // The reference's tree comes when the device has let go of the other.
+  const std::uint64_t triangle =
+      o.withReference ? std::max(kTriangleBytes, kReferenceTriangleBytes) : kTriangleBytes;
+  Scene scene = loadScene(o.scene, {triangle, kRuntimeBytes, pictureBytes}, o.settings, budget, notices);
   for (const auto& file : notices.files) check.reads(file);
   if (trace) trace->phase("load", start);
   const double load = since(start);
@@ -309,6 +319,10 @@ void addRender(CLI::App& app, int& status) {
            "say why a pixel (from the top left) is as it is: its rays, what each met, carried and brought, "
            "which shadow rays were blocked; no picture then unless one is asked for",
            ""});
+  c->add_flag("--with-reference", o->withReference,
+              "--explain traces the pixel in double precision too, and says below each line what differs by "
+              "more than rounding")
+      ->needs("--explain");
   c->add_flag("--json", o->json, "--explain as JSON");
   addPictureOptions(*c, o->settings, o->scene);
   addErrorOptions(*c, o->settings);

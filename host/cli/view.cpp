@@ -71,21 +71,34 @@ class Sources {
     options.quiet = true;  // the window shows them
     Notices notices;
     MemoryBudget budget = budgetOf(options);
-    Scene scene =
-        loadScene(options, {kTriangleBytes, kRuntimeBytes, pictureBytes}, settings, budget, notices);
+    Scene scene = loadScene(options, kCosts, settings, budget, notices);
     options.quiet = options_.quiet;
     options_ = options;  // what could not be read is not asked for again
+    allowedPicture_ = pictureBytes(settings);
     notes = notices.warnings;
     notes.insert(notes.end(), notices.notes.begin(), notices.notes.end());
     return scene;
   }
 
+  /// Throws InputError, as loading does, where a picture larger than those so far is more than memory allows.
+  void checkPicture(const Settings& settings) {
+    const std::lock_guard lock(mutex_);
+    if (pictureBytes(settings) <= allowedPicture_) return;
+    MemoryBudget budget = budgetOf(options_);
+    budget.promiseProgram(kCosts.programBytes);
+    promisePicture(budget, kCosts, settings);
+    allowedPicture_ = pictureBytes(settings);
+  }
+
  private:
+  static constexpr CommandCosts kCosts{kTriangleBytes, kRuntimeBytes, pictureBytes};
+
   static bool isEnvironment(const fs::path& file) {
     return file.extension() == ".hdr" || file.extension() == ".exr";
   }
   std::mutex mutex_;
   SceneOptions options_;
+  std::uint64_t allowedPicture_ = 0;  ///< bytes
 };
 
 std::vector<std::uint8_t> codesOf(const FloatImage& radiance, const Scene& scene, const Settings& settings) {
@@ -149,6 +162,7 @@ int runView(ViewOptions& o) {
   services.load = [sources](const fs::path& file, Settings& settings, std::vector<std::string>& notes) {
     return sources->load(file, settings, notes);
   };
+  services.checkPicture = [sources](const Settings& settings) { sources->checkPicture(settings); };
   services.codes = codesOf;
   services.cameraText = viewpointText;
   services.camera = cameraOf;

@@ -122,19 +122,22 @@ std::vector<cl::Program> compilePrograms(Compute& compute, const std::vector<Ker
 
 std::vector<cl::Program> compileOnce(OpenDevice& device, const std::vector<KernelProgram>& programs,
                                      const CompileTarget& target, const CompileBeside& beside) {
-  std::vector<std::string> keys, newKeys;
-  std::vector<KernelProgram> newPrograms;
-  for (const KernelProgram& p : programs) {
-    keys.push_back(keyOf(p, target));
-    if (device.programs.contains(keys.back())) continue;
-    newKeys.push_back(keys.back());
-    newPrograms.push_back(p);
+  std::vector<cl::Program> all(programs.size());
+  std::vector<std::size_t> missing;
+  std::vector<KernelProgram> missingPrograms;
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    if (const cl::Program* const kept = device.programs.find(keyOf(programs[i], target))) {
+      all[i] = *kept;
+      continue;
+    }
+    missing.push_back(i);
+    missingPrograms.push_back(programs[i]);
   }
-  const auto built = compilePrograms(device.compute, newPrograms, target, beside);
-  for (std::size_t i = 0; i < built.size(); ++i) device.programs.emplace(newKeys[i], built[i]);
-  std::vector<cl::Program> all;
-  all.reserve(keys.size());
-  for (const std::string& key : keys) all.push_back(device.programs.at(key));
+  const auto built = compilePrograms(device.compute, missingPrograms, target, beside);
+  for (std::size_t k = 0; k < built.size(); ++k) {
+    all[missing[k]] = built[k];
+    device.programs.keep(keyOf(missingPrograms[k], target), built[k]);
+  }
   return all;
 }
 

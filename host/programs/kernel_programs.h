@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/scene_features.h"
 #include "cl/program.h"
+#include "programs/kept_programs.h"
 
 namespace whittle {
 
@@ -57,14 +57,14 @@ using CompileBeside = std::function<std::function<void()>()>;
 std::vector<cl::Program> compilePrograms(Compute& compute, const std::vector<KernelProgram>& programs,
                                          const CompileTarget& target, const CompileBeside& beside = {});
 
-/// A device that stays open from one render to the next, and the programs compiled on it so far: even those
-/// found on disk take 0.2 s to load.
+/// A device that stays open from one render to the next, and the programs compiled on it: even those found on
+/// disk take 0.2 s to load.
 struct OpenDevice {
   Compute compute;
-  std::map<std::string, cl::Program> programs = {};  ///< by all that decides on their code
+  KeptPrograms programs = KeptPrograms();  ///< by all that decides on their code
 };
 
-/// compilePrograms for those that were not compiled on this device before.
+/// compilePrograms for those that are not kept.
 std::vector<cl::Program> compileOnce(OpenDevice& device, const std::vector<KernelProgram>& programs,
                                      const CompileTarget& target, const CompileBeside& beside = {});
 

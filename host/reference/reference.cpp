@@ -82,13 +82,36 @@ std::uint64_t referencePictureBytes(const Settings& settings) {
   return pixel * static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
 }
 
-ReferenceResult renderReference(const Scene& scene, const Settings& settings,
-                                const std::function<void(int, int)>& progress) {
+namespace {
+
+/// `work` on as many threads as the settings ask for.
+template <typename Work>
+auto onThreads(const Settings& settings, const Work& work) {
   const int threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
-  return arena.execute([&] { return render(scene, settings, progress); });
+  return arena.execute(work);
+}
+
+}  // namespace
+
+ReferenceResult renderReference(const Scene& scene, const Settings& settings,
+                                const std::function<void(int, int)>& progress) {
+  return onThreads(settings, [&] { return render(scene, settings, progress); });
+}
+
+std::vector<RayTree> referenceTrees(const Scene& scene, const Settings& settings, int x, int y,
+                                    const Camera* camera, int samples) {
+  if (!camera) camera = &scene.cameras[findCamera(scene, settings.camera)];
+  return onThreads(settings, [&] {
+    const reference::TriangleIndex triangles(scene);
+    const reference::World world{scene, settings, triangles, *camera};
+    std::vector<RayTree> trees;
+    for (int s = 0; s < std::min(samples, settings.raysPerPixel); ++s)
+      trees.push_back(reference::treeOfSample(world, x, y, static_cast<std::uint32_t>(s)));
+    return trees;
+  });
 }
 
 }  // namespace whittle

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "image/image_io.h"
+#include "scene/ray_tree.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
@@ -38,5 +39,10 @@ std::uint64_t referencePictureBytes(const Settings& settings);
 /// is called now and then from one thread at a time, may be empty. Throws InputError for an unknown camera.
 ReferenceResult renderReference(const Scene& scene, const Settings& settings,
                                 const std::function<void(int, int)>& progress = {});
+
+/// What becomes of the rays of a pixel (x from the left, y from the top), sample by sample, at most `samples`
+/// of them. `camera`: in the place of the settings'. Throws as renderReference.
+std::vector<RayTree> referenceTrees(const Scene& scene, const Settings& settings, int x, int y,
+                                    const Camera* camera = nullptr, int samples = kAllSamples);
 
 }  // namespace whittle

@@ -5,6 +5,7 @@
 
 #include "reference/camera.h"
 #include "reference/lights.h"
+#include "reference/ray_notes.h"
 #include "reference/sampler.h"
 #include "reference/texture.h"
 
@@ -20,9 +21,21 @@ Vec3 absorption(const Surfel& surfel, double t) {
   return kept;
 }
 
-Vec3 directLight(const World& world, const Sample& sample, const Surfel& surfel, const Vec3& w_o) {
+/// Towards a light, from just above the surface; `length` metres of it lie before the light.
+struct ShadowRay {
+  Ray ray;
+  double length;
+};
+
+ShadowRay shadowRay(const Surfel& surfel, const Vec3& w_i, double distance) {
+  return {{surfel.position + surfel.rayOffset * surfel.facing, w_i}, distance - 2 * surfel.rayOffset};
+}
+
+Vec3 directLight(const World& world, const Sample& sample, const Surfel& surfel, const Vec3& w_o,
+                 RayNotes& notes) {
   Vec3 sum(0);
-  for (const Light& light : world.scene.lights) {
+  for (std::size_t i = 0; i < world.scene.lights.size(); ++i) {
+    const Light& light = world.scene.lights[i];
     const auto [w_i, distance, biradiance] = sampleLight(light, surfel.position);
     const double cosine = glm::dot(surfel.n, w_i);
     if (!(cosine > 0 && glm::dot(surfel.facing, w_i) > 0)) continue;
@@ -31,8 +44,12 @@ Vec3 directLight(const World& world, const Sample& sample, const Surfel& surfel,
     if (light.castsShadows && world.settings.shadows) {
       ++sample.rays.shadow;
       const Vec3 visible = visibility(world, surfel, w_i, distance);
-      if (!isDark(visible)) sum += unshadowed * visible;  // not NaN times 0
+      const Vec3 arrived = isDark(visible) ? Vec3(0) : unshadowed * visible;  // not NaN times 0
+      const auto [ray, length] = shadowRay(surfel, w_i, distance);
+      notes.shadowRay(i, ray, length, unshadowed, arrived);
+      sum += arrived;
     } else {
+      notes.local(unshadowed);
       sum += unshadowed;
     }
   }
@@ -49,27 +66,31 @@ bool isFollowed(const Settings& settings, const Impulse& impulse, const Step& st
 }
 
 Vec3 impulseLight(const World& world, const Sample& sample, const Ray& arrived, const Hit& hit,
-                  const Surfel& surfel, const Step& step, const Vec3& throughput) {
+                  const Surfel& surfel, const Step& step, const Vec3& throughput, RayNotes& notes) {
   Impulses impulses = impulsesOf(surfel, -arrived.direction);
   if (world.settings.impulses == ImpulseMode::One) {
     const auto dimension = static_cast<std::uint32_t>(kImpulseDimension + step.bounce + step.passed);
     impulses = chooseOne(impulses, unit(hash(sample.pixel, sample.index, dimension, world.settings.seed)));
   }
   const bool branches = impulses.count == 2 && (impulses.items[0].straight || impulses.items[1].straight);
-  const Step passing{step.bounce, step.passed + 1, std::min(step.branched + (branches ? 1 : 0), 63), hit};
+  const Step passing{step.bounce, step.passed + 1, std::min(step.branched + (branches ? 1 : 0), 63), hit,
+                     notes.index()};
   Vec3 sum(0);
   for (const Impulse& impulse : impulses.all()) {
     const Vec3 share = throughput * impulse.magnitude;
     if (!anyPositive(share)) {
-      if (!isDark(share)) sum += share;  // NaN: not traced, but the sample counts as not finite
+      if (!isDark(share))
+        notes.local(share), sum += share;  // NaN: not traced, but the sample counts as not finite
       continue;
     }
     if (!isFollowed(world.settings, impulse, step, share)) {
       (impulse.straight ? sample.rays.straight : sample.rays.bounces) += maxComponent(share);
+      notes.ended(share, false);
       continue;
     }
     if (glm::all(glm::lessThanEqual(share, Vec3(world.settings.cutoff)))) {
       sample.rays.cutOff += maxComponent(share);
+      notes.ended(share, true);
       continue;
     }
     ++sample.rays.impulse;
@@ -79,7 +100,8 @@ Vec3 impulseLight(const World& world, const Sample& sample, const Ray& arrived, 
     }
     const double side = impulse.through ? -1 : 1;
     const Ray ray{surfel.position + side * surfel.rayOffset * surfel.facing, impulse.w_i};
-    sum += impulse.magnitude * Li(world, sample, ray, {step.bounce + 1, step.passed, step.branched}, share);
+    const Step next{step.bounce + 1, step.passed, step.branched, {}, notes.index()};
+    sum += impulse.magnitude * Li(world, sample, ray, next, share);
   }
   return sum;
 }
@@ -141,8 +163,7 @@ std::optional<Hit> nearestSurface(const World& world, const Ray& ray, const std:
 }
 
 Vec3 visibility(const World& world, const Surfel& surfel, const Vec3& w_i, double distance) {
-  const Ray ray{surfel.position + surfel.rayOffset * surfel.facing, w_i};
-  const double length = distance - 2 * surfel.rayOffset;
+  const auto [ray, length] = shadowRay(surfel, w_i, distance);
   if (!(length > 0)) return Vec3(1);
 
   // Opacity in units of 2⁻¹⁶ stops: a sum of integers does not depend on the order of the surfaces.
@@ -167,6 +188,7 @@ Vec3 visibility(const World& world, const Surfel& surfel, const Vec3& w_i, doubl
 
 Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& step, const Vec3& throughput,
         std::optional<Hit>* seen) {
+  RayNotes notes(sample.tree, ray, step, throughput);
   // The camera's planes concern what the eye sees, straight on.
   const double along = glm::dot(ray.direction, Vec3(world.camera.forward)), znear = world.camera.znear;
   const bool fromEye = step.bounce == 1;
@@ -178,27 +200,57 @@ Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& st
     if (sample.transmittance) *sample.transmittance += (throughput.x + throughput.y + throughput.z) / 3;
     return Vec3(0);
   }
-  if (!hit) return backgroundRadiance(world.scene.background, ray.direction);
+  if (!hit) {
+    const Vec3 background = backgroundRadiance(world.scene.background, ray.direction);
+    notes.local(background);
+    return background;
+  }
   const Surfel surfel = makeSurfel(world.scene, world.settings, world.triangles, ray, *hit);
   const Vec3 kept = absorption(surfel, hit->t - (step.after ? step.after->t : 0));
+  notes.meets(world, ray, *hit, surfel, kept);
   Vec3 radiance = surfel.alpha * (surfel.unlit ? surfel.baseColor : surfel.emission);
   if (!surfel.unlit) {
     const double ambient = world.settings.ambient.value_or(0.0F);
     if (ambient > 0) radiance += surfel.alpha * ambient * ambientReflectance(surfel, -ray.direction);
-    radiance += directLight(world, sample, surfel, -ray.direction);
+    notes.local(radiance);
+    radiance += directLight(world, sample, surfel, -ray.direction, notes);
+  } else {
+    notes.local(radiance);
   }
-  radiance += impulseLight(world, sample, ray, *hit, surfel, step, throughput * kept);
+  radiance += impulseLight(world, sample, ray, *hit, surfel, step, throughput * kept, notes);
   return kept * radiance;
 }
 
+namespace {
+
+std::uint32_t pixelIndex(const World& world, int x, int y) {
+  return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(world.settings.width) + x;
+}
+
+Ray eyeRayOf(const World& world, int x, int y, std::uint32_t sample) {
+  const Settings& s = world.settings;
+  const Vec2 within = samplePosition(s.sampler, pixelIndex(world, x, y), sample,
+                                     static_cast<std::uint32_t>(s.raysPerPixel), s.seed);
+  return eyeRay(world.camera, Vec2(x, y) + within, s.width, s.height);
+}
+
+}  // namespace
+
+RayTree treeOfSample(const World& world, int x, int y, std::uint32_t sample) {
+  RayTree tree;
+  RayCounts rays;
+  const Sample traced{pixelIndex(world, x, y), sample, rays, nullptr, &tree};
+  const Vec3 radiance = Li(world, traced, eyeRayOf(world, x, y, sample), {}, Vec3(1));
+  tree.radiance = isFiniteInSinglePrecision(radiance) ? radiance : Vec3(0);
+  return tree;
+}
+
 PixelResult traceOnePixel(const World& world, int x, int y, RayCounts& rays) {
-  const Settings& settings = world.settings;
-  const auto pixel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(settings.width) + x;
-  const auto count = static_cast<std::uint32_t>(settings.raysPerPixel);
+  const std::uint32_t pixel = pixelIndex(world, x, y);
+  const auto count = static_cast<std::uint32_t>(world.settings.raysPerPixel);
   PixelResult result;
   for (std::uint32_t s = 0; s < count; ++s) {
-    const Vec2 position = Vec2(x, y) + samplePosition(settings.sampler, pixel, s, count, settings.seed);
-    const Ray ray = eyeRay(world.camera, position, settings.width, settings.height);
+    const Ray ray = eyeRayOf(world, x, y, s);
     ++rays.primary;
     double transmittance = 0;
     const Vec3 radiance =

@@ -6,6 +6,7 @@
 
 #include "reference/bsdf.h"
 #include "reference/reference.h"
+#include "scene/ray_tree.h"
 
 namespace whittle::reference {
 
@@ -25,6 +26,8 @@ struct Sample {
   /// With Settings::alpha receives the share of the background that the eye sees straight on; null: nobody
   /// asks.
   double* transmittance = nullptr;
+  /// Receives what becomes of the sample's rays; null: nobody asks.
+  RayTree* tree = nullptr;
 };
 
 /// Where on its way a ray is: `bounce` 1 for eye rays; `passed` surfaces went by straight on, the last of
@@ -34,6 +37,7 @@ struct Step {
   int passed = 0;
   int branched = 0;
   std::optional<Hit> after = {};
+  int parent = -1;  ///< the ray that this one comes of, in Sample::tree
 };
 
 /// The first surface after `after`, in the order of README.md, that alpha masks and back faces leave
@@ -59,5 +63,7 @@ struct PixelResult {
 };
 
 PixelResult traceOnePixel(const World& world, int x, int y, RayCounts& rays);
+/// What becomes of the rays of one of its samples.
+RayTree treeOfSample(const World& world, int x, int y, std::uint32_t sample);
 
 }  // namespace whittle::reference

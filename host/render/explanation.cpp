@@ -33,8 +33,8 @@ const char* kindOf(const RayTree& tree, const RayRecord& ray) {
 }
 
 std::string numbers(const glm::dvec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
-std::string place(const glm::vec3& v, const glm::dvec3& origin = glm::dvec3(0)) {
-  const glm::dvec3 p = glm::dvec3(v) + origin;
+std::string place(const glm::dvec3& v, const glm::dvec3& origin = glm::dvec3(0)) {
+  const glm::dvec3 p = v + origin;
   return fmt::format("({:.5g}, {:.5g}, {:.5g})", p.x, p.y, p.z);
 }
 
@@ -46,20 +46,133 @@ std::string lightName(const Scene& scene, std::uint32_t light) {
   return nameOf(scene.lights[light].name, "light", light);
 }
 
+std::string materialName(const Scene& scene, std::uint32_t material) {
+  return nameOf(scene.materials[material].name, "material", material);
+}
+
 std::string shadowText(const ShadowRecord& s, const Scene& scene) {
   const std::string to = fmt::format("shadow ray to {}{}", lightName(scene, s.light),
                                      std::isfinite(s.length) ? fmt::format(", {:.4g} m", s.length) : "");
-  if (s.arrived == glm::vec3(0)) return fmt::format("{}: blocked, {} missed", to, numbers(s.contribution));
-  if (glm::all(glm::greaterThan(s.arrived, 0.999F * s.contribution)))
+  if (s.arrived == glm::dvec3(0)) return fmt::format("{}: blocked, {} missed", to, numbers(s.contribution));
+  if (glm::all(glm::greaterThan(s.arrived, 0.999 * s.contribution)))
     return fmt::format("{}: {} arrives", to, numbers(s.arrived));
   return fmt::format("{}: {} of {} arrives", to, numbers(s.arrived), numbers(s.contribution));
 }
 
-void tell(const RayTree& tree, std::size_t index, int depth, const Scene& scene, std::string& out) {
+using Lines = std::vector<std::string>;
+
+Lines hitLines(const RayRecord& ray, const Scene& scene) {
+  if (!ray.hit) return {"leaves the scene"};
+  const HitRecord& h = *ray.hit;
+  return {fmt::format("meets {}, triangle {}, {:.5g} m away", materialName(scene, h.material), h.primitive,
+                      glm::length(h.position - ray.origin)),
+          fmt::format("  at {}, normal {}", place(h.position, scene.origin), place(h.normal))};
+}
+
+Lines endedLines(const RayRecord& ray) {
+  Lines lines;
+  for (const auto& e : ray.ended)
+    lines.push_back(fmt::format("an impulse of throughput {:.4g} ends by {}", e.throughput,
+                                e.byCutoff ? "--cutoff" : "a limit of depth"));
+  return lines;
+}
+
+/// What there is to say of it; nothing of what is not worth a line.
+Lines linesOf(Aspect aspect, const RayRecord& ray, const Scene& scene) {
+  switch (aspect) {
+    case Aspect::Path:
+      return {fmt::format("from {} along {}", place(ray.origin, scene.origin), place(ray.direction))};
+    case Aspect::Throughput:
+      return ray.parent < 0 ? Lines{} : Lines{"throughput " + numbers(ray.throughput)};
+    case Aspect::Hit:
+      return hitLines(ray, scene);
+    case Aspect::Local:
+      return ray.local == glm::dvec3(0) ? Lines{} : Lines{"without shadow rays " + numbers(ray.local)};
+    case Aspect::Ended:
+      return endedLines(ray);
+    case Aspect::Share:
+      return shareOf(ray) == glm::dvec3(0) ? Lines{} : Lines{"adds " + numbers(shareOf(ray))};
+  }
+  return {};
+}
+
+/// The lines of one ray under way.
+class Telling {
+ public:
+  Telling(const RayRecord& ray, const RayRecord* reference, const Scene& scene)
+      : ray_(ray), reference_(reference), scene_(scene) {}
+
+  void tell(Aspect aspect, const std::string& before = "  ") {
+    for (const auto& line : linesOf(aspect, ray_, scene_)) say(before + line);
+    if (!reference_ || agree(aspect, ray_, *reference_)) return;
+    const Lines others = linesOf(aspect, *reference_, scene_);
+    if (others.empty()) sayReference("nothing of that");
+    for (const auto& line : others) sayReference(line);
+  }
+
+  void tellShadowRays() {
+    for (const auto& s : ray_.shadows) {
+      say("  " + shadowText(s, scene_));
+      if (!reference_) continue;
+      const ShadowRecord* const other = shadowTo(s.light, *reference_);
+      if (!other)
+        sayReference("no such shadow ray");
+      else if (!agree(s, *other, ray_))
+        sayReference(shadowText(*other, scene_));
+    }
+    if (!reference_) return;
+    for (const auto& s : reference_->shadows)
+      if (!shadowTo(s.light, ray_)) sayReference(shadowText(s, scene_));
+  }
+
+  void say(std::string text) { lines.push_back({std::move(text), false}); }
+  void sayReference(const std::string& text) { lines.push_back({"    reference: " + text, true}); }
+
+  std::vector<RayLine> lines;
+
+ private:
+  const RayRecord& ray_;
+  const RayRecord* reference_;
+  const Scene& scene_;
+};
+
+/// A ray that the reference alone has, and what comes of it.
+std::string aloneText(const RayTree& reference, std::size_t index, const Scene& scene) {
+  const RayRecord& ray = reference.rays[index];
+  return fmt::format("{}, {}; adds {} itself", kindOf(reference, ray), hitLines(ray, scene).front(),
+                     numbers(shareOf(ray)));
+}
+
+std::string partingText(const Parting& p, const Scene& scene) {
+  using What = Parting::What;
+  switch (p.what) {
+    case What::Path:
+      return "it goes another way";
+    case What::Throughput:
+      return "another throughput";
+    case What::Hit:
+      return "another hit";
+    case What::Local:
+      return "other radiance without shadow rays";
+    case What::Shadow:
+      return fmt::format("the shadow ray to {}", lightName(scene, p.light));
+    case What::Ended:
+      return "another impulse ends";
+    case What::Missing:
+      return "the reference has no such ray";
+    case What::Additional:
+      return "the reference has one more ray from there";
+  }
+  return "";
+}
+
+void tell(const RayTree& tree, std::size_t index, int depth, const Scene& scene, const Beside* beside,
+          std::string& out) {
   const std::string indent(2 * static_cast<std::size_t>(std::min(depth, kDeepest)), ' ');
-  for (const auto& line : rayLines(tree, index, scene)) out.append(indent).append(line).push_back('\n');
+  for (const auto& line : rayLines(tree, index, scene, beside))
+    out.append(indent).append(line.text).push_back('\n');
   for (std::size_t i = index + 1; i < tree.rays.size(); ++i)
-    if (tree.rays[i].parent == static_cast<int>(index)) tell(tree, i, depth + 1, scene, out);
+    if (tree.rays[i].parent == static_cast<int>(index)) tell(tree, i, depth + 1, scene, beside, out);
 }
 
 nlohmann::ordered_json vectorJson(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
@@ -69,13 +182,13 @@ nlohmann::ordered_json rayJson(const RayTree& tree, const RayRecord& ray, const 
   json["parent"] = ray.parent;
   json["kind"] =
       ray.parent < 0 ? "eye" : wordOf(passageOf(ray, tree.rays[static_cast<std::size_t>(ray.parent)]));
-  json["origin"] = vectorJson(glm::dvec3(ray.origin) + scene.origin);
+  json["origin"] = vectorJson(ray.origin + scene.origin);
   json["direction"] = vectorJson(ray.direction);
   json["throughput"] = vectorJson(ray.throughput);
   if (ray.hit)
     json["hit"] = {{"primitive", ray.hit->primitive},
                    {"material", ray.hit->material},
-                   {"position", vectorJson(glm::dvec3(ray.hit->position) + scene.origin)},
+                   {"position", vectorJson(ray.hit->position + scene.origin)},
                    {"normal", vectorJson(ray.hit->normal)}};
   else
     json["hit"] = nullptr;
@@ -94,76 +207,104 @@ nlohmann::ordered_json rayJson(const RayTree& tree, const RayRecord& ray, const 
   return json;
 }
 
+nlohmann::ordered_json treeJson(const RayTree& tree, const Scene& scene) {
+  nlohmann::ordered_json json{{"radiance", vectorJson(tree.radiance)}, {"sum", vectorJson(sumOf(tree))}};
+  json["rays"] = nlohmann::ordered_json::array();
+  for (const auto& ray : tree.rays) json["rays"].push_back(rayJson(tree, ray, scene));
+  return json;
+}
+
+/// Samples from `first` on in which the two part.
+std::size_t partedBeyond(std::size_t first, const Explanation& e) {
+  std::size_t count = 0;
+  for (std::size_t i = first; i < e.trees.size(); ++i)
+    count += compareTrees(e.trees[i], e.reference[i]).parting.has_value();
+  return count;
+}
+
+/// The reference's tree, which of its rays each of the kernels' is, and where they part.
+nlohmann::ordered_json referenceJson(const RayTree& kernels, const RayTree& reference, const Scene& scene) {
+  const TreeComparison c = compareTrees(kernels, reference);
+  nlohmann::ordered_json json = treeJson(reference, scene);
+  json["partners"] = c.partner;
+  json["parting"] = nullptr;
+  if (c.parting) json["parting"] = {{"ray", c.parting->ray}, {"what", partingText(*c.parting, scene)}};
+  return json;
+}
+
 }  // namespace
-
-Passage passageOf(const RayRecord& ray, const RayRecord& parent) {
-  if (ray.goesStraight || !parent.hit) return Passage::Straight;
-  return glm::dot(ray.direction, parent.hit->normal) > 0.0F ? Passage::Reflected : Passage::Refracted;
-}
-
-glm::dvec3 shareOf(const RayRecord& ray) { return glm::dvec3(ray.throughput) * glm::dvec3(ray.radiance); }
-
-glm::dvec3 sumOf(const RayTree& tree) {
-  glm::dvec3 sum(0);
-  for (const auto& ray : tree.rays) sum += shareOf(ray);
-  return sum;
-}
 
 std::string rayTitle(const RayTree& tree, std::size_t index, const Scene& scene) {
   const RayRecord& ray = tree.rays[index];
-  return fmt::format("{}: {}", kindOf(tree, ray),
-                     ray.hit ? nameOf(scene.materials[ray.hit->material].name, "material", ray.hit->material)
-                             : "leaves the scene");
+  return fmt::format("[{}] {}: {}", index, kindOf(tree, ray),
+                     ray.hit ? materialName(scene, ray.hit->material) : "leaves the scene");
 }
 
-std::vector<std::string> rayLines(const RayTree& tree, std::size_t index, const Scene& scene) {
+std::vector<RayLine> rayLines(const RayTree& tree, std::size_t index, const Scene& scene,
+                              const Beside* beside) {
   const RayRecord& ray = tree.rays[index];
-  std::vector<std::string> lines;
-  lines.push_back(fmt::format("{} from {} along {}", kindOf(tree, ray), place(ray.origin, scene.origin),
-                              place(ray.direction)));
-  if (ray.parent >= 0) lines.push_back("  throughput " + numbers(glm::dvec3(ray.throughput)));
-  if (ray.hit) {
-    const HitRecord& h = *ray.hit;
-    lines.push_back(fmt::format("  meets {}, triangle {}, {:.5g} m away",
-                                nameOf(scene.materials[h.material].name, "material", h.material), h.primitive,
-                                glm::length(glm::dvec3(h.position) - glm::dvec3(ray.origin))));
-    lines.push_back(fmt::format("    at {}, normal {}", place(h.position, scene.origin), place(h.normal)));
-  } else {
-    lines.push_back("  leaves the scene");
-  }
-  if (ray.local != glm::vec3(0)) lines.push_back("  without shadow rays " + numbers(glm::dvec3(ray.local)));
-  for (const auto& s : ray.shadows) lines.push_back("  " + shadowText(s, scene));
-  for (const auto& e : ray.ended)
-    lines.push_back(fmt::format("  an impulse of throughput {:.4g} ends by {}", e.throughput,
-                                e.byCutoff ? "--cutoff" : "a limit of depth"));
-  if (shareOf(ray) != glm::dvec3(0)) lines.push_back("  adds " + numbers(shareOf(ray)));
-  return lines;
+  const int partner = beside ? beside->comparison.partner[index] : -1;
+  Telling telling(ray, partner < 0 ? nullptr : &beside->reference.rays[static_cast<std::size_t>(partner)],
+                  scene);
+  telling.tell(Aspect::Path, fmt::format("[{}] {} ", index, kindOf(tree, ray)));
+  const bool isNew = partner < 0 && ray.parent >= 0 && beside &&
+                     beside->comparison.partner[static_cast<std::size_t>(ray.parent)] >= 0;
+  if (isNew) telling.sayReference("no such ray");
+  telling.tell(Aspect::Throughput);
+  telling.tell(Aspect::Hit);
+  telling.tell(Aspect::Local);
+  telling.tellShadowRays();
+  telling.tell(Aspect::Ended);
+  if (partner >= 0)
+    for (const std::size_t i : beside->comparison.alone)
+      if (beside->reference.rays[i].parent == partner)
+        telling.sayReference(aloneText(beside->reference, i, scene));
+  telling.tell(Aspect::Share);
+  return std::move(telling.lines);
+}
+
+std::string verdict(const RayTree& tree, const Beside& beside, const Scene& scene) {
+  const auto& parting = beside.comparison.parting;
+  return fmt::format(
+      "reference: {}; the kernels {}; {}", numbers(beside.reference.radiance), numbers(tree.radiance),
+      parting ? fmt::format("parted at ray [{}]: {}", parting->ray, partingText(*parting, scene))
+              : "no difference beyond rounding");
 }
 
 std::string explanationText(const Explanation& e, const Scene& scene, const Settings& settings) {
-  glm::dvec3 mean(0);
-  for (const auto& tree : e.trees) mean += glm::dvec3(tree.radiance) / static_cast<double>(e.trees.size());
+  const auto mean = [](const std::vector<RayTree>& trees) {
+    glm::dvec3 sum(0);
+    for (const auto& tree : trees) sum += tree.radiance;
+    return sum / static_cast<double>(trees.size());
+  };
   std::string out = fmt::format("pixel {},{} of {}×{}: radiance {} W/(m² sr)\n", e.x, e.y, settings.width,
-                                settings.height, numbers(mean));
+                                settings.height, numbers(mean(e.trees)));
   for (std::size_t i = 0; i < std::min(e.trees.size(), kTold); ++i) {
     const RayTree& tree = e.trees[i];
     if (e.trees.size() > 1)
-      out +=
-          fmt::format("\nsample {} of {}: {}\n", i + 1, e.trees.size(), numbers(glm::dvec3(tree.radiance)));
-    tell(tree, 0, 0, scene, out);
-    out += fmt::format("sum of {} rays: {}\n", tree.rays.size(), numbers(sumOf(tree)));
+      out += fmt::format("\nsample {} of {}: {}\n", i + 1, e.trees.size(), numbers(tree.radiance));
+    const std::string sum = fmt::format("sum of {} rays: {}\n", tree.rays.size(), numbers(sumOf(tree)));
+    if (e.reference.empty()) {
+      tell(tree, 0, 0, scene, nullptr, out);
+      out += sum;
+      continue;
+    }
+    const TreeComparison comparison = compareTrees(tree, e.reference[i]);
+    const Beside beside{e.reference[i], comparison};
+    tell(tree, 0, 0, scene, &beside, out);
+    out += sum + verdict(tree, beside, scene) + "\n";
   }
   if (e.trees.size() > kTold)
-    out += fmt::format("\n{} further samples: --json has them\n", e.trees.size() - kTold);
+    out += fmt::format("\n{} further samples{}: --json has them\n", e.trees.size() - kTold,
+                       e.reference.empty() ? "" : fmt::format(", of which {} part", partedBeyond(kTold, e)));
   return out;
 }
 
 nlohmann::ordered_json explanationToJson(const Explanation& e, const Scene& scene) {
   nlohmann::ordered_json json{{"x", e.x}, {"y", e.y}, {"samples", nlohmann::ordered_json::array()}};
-  for (const auto& tree : e.trees) {
-    nlohmann::ordered_json sample{{"radiance", vectorJson(tree.radiance)}, {"sum", vectorJson(sumOf(tree))}};
-    sample["rays"] = nlohmann::ordered_json::array();
-    for (const auto& ray : tree.rays) sample["rays"].push_back(rayJson(tree, ray, scene));
+  for (std::size_t i = 0; i < e.trees.size(); ++i) {
+    nlohmann::ordered_json sample = treeJson(e.trees[i], scene);
+    if (!e.reference.empty()) sample["reference"] = referenceJson(e.trees[i], e.reference[i], scene);
     json["samples"].push_back(std::move(sample));
   }
   return json;

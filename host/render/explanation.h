@@ -5,30 +5,40 @@
 #include <string>
 #include <vector>
 
-#include "render/render_session.h"
+#include "render/tree_comparison.h"
+#include "scene/ray_tree.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
 namespace whittle {
 
 struct Explanation {
-  int x = 0, y = 0;            ///< the pixel, from the top left
-  std::vector<RayTree> trees;  ///< of its samples
+  int x = 0, y = 0;                ///< the pixel, from the top left
+  std::vector<RayTree> trees;      ///< of its samples, the kernels'
+  std::vector<RayTree> reference;  ///< of the same samples in double precision; empty: nobody asked
 };
 
-/// What an impulse does at the surface that it comes from.
-enum class Passage { Reflected, Refracted, Straight };
-Passage passageOf(const RayRecord& ray, const RayRecord& parent);
-/// What the ray adds to its sample: throughput times radiance.
-glm::dvec3 shareOf(const RayRecord& ray);
-/// Over all rays of a tree.
-glm::dvec3 sumOf(const RayTree& tree);
+/// What the reference has of a sample, and how the kernels' tree compares with it.
+struct Beside {
+  const RayTree& reference;
+  const TreeComparison& comparison;
+};
 
-/// "reflected: \"white\"": what the ray is and what it meets.
+struct RayLine {
+  std::string text;
+  bool parts = false;  ///< what the reference has instead
+};
+
+/// "[2] reflected: \"white\"": its number, what the ray is and what it meets.
 std::string rayTitle(const RayTree& tree, std::size_t index, const Scene& scene);
-/// One ray in lines, the first its title; without its children.
-std::vector<std::string> rayLines(const RayTree& tree, std::size_t index, const Scene& scene);
-/// Children indented below their parents; at most 80 columns, but for names and what lies deep.
+/// One ray in lines, the first its number, kind and path; without its children. With `beside`, below each
+/// line that the reference has otherwise the reference's.
+std::vector<RayLine> rayLines(const RayTree& tree, std::size_t index, const Scene& scene,
+                              const Beside* beside = nullptr);
+/// "reference: 1 1 1; the kernels 1 1 1; no difference beyond rounding", or where they part.
+std::string verdict(const RayTree& tree, const Beside& beside, const Scene& scene);
+/// Children indented below their parents; at most 80 columns, but for names, what lies deep and the
+/// reference.
 std::string explanationText(const Explanation& explanation, const Scene& scene, const Settings& settings);
 nlohmann::ordered_json explanationToJson(const Explanation& explanation, const Scene& scene);
 

@@ -17,6 +17,7 @@
 #include "wavefront/camera_to_device.h"
 #include "wavefront/film.h"
 #include "wavefront/pixel_recorder.h"
+#include "wavefront/ray_recorder.h"
 #include "wavefront/wavefront.h"
 
 namespace whittle {
@@ -249,7 +250,7 @@ RenderSession::State::Prepared RenderSession::State::prepare(const Scene& from, 
 
   say(hooks, "compiling kernels");
   const auto compiling = Clock::now();
-  const std::size_t programsBefore = open.programs.size();
+  const std::uint64_t programsBefore = open.programs.total();
   auto compiled = std::async(std::launch::async,
                              [&] { return compileKernels(open, settings, decisions, hooks, compiling); });
   const auto allocating = Clock::now();
@@ -259,7 +260,7 @@ RenderSession::State::Prepared RenderSession::State::prepare(const Scene& from, 
   provideQueues(open.compute, settings, decisions, log);
   Compiled built = compiled.get();
   log.add("compile kernels", compiling, built.seconds);
-  work.programs = static_cast<int>(open.programs.size() - programsBefore);
+  work.programs = static_cast<int>(open.programs.total() - programsBefore);
   return {open, std::move(decisions), std::move(built.programs), built.seconds, pictureSeconds};
 }
 
@@ -372,10 +373,13 @@ std::vector<RayTree> RenderSession::explain(const Scene& scene, const Settings& 
     wavefront.observe(&recorder);
     wavefront.trace({order, none, 1, static_cast<std::uint32_t>(sample), 1},
                     {[](double, bool) { return true; }});
-    RayTree tree{recorder.rays(), glm::vec3(0)};
+    RayTree tree{recorder.rays(), {}};
     const std::size_t planeBytes = static_cast<std::size_t>(settings.width) * settings.height * sizeof(float);
-    for (int c = 0; c < 3; ++c)
-      compute.read(film, static_cast<std::size_t>(c) * planeBytes, sizeof(float), &tree.radiance[c]);
+    for (int c = 0; c < 3; ++c) {
+      float channel = 0.0F;
+      compute.read(film, static_cast<std::size_t>(c) * planeBytes, sizeof(float), &channel);
+      tree.radiance[c] = static_cast<double>(channel);
+    }
     for (RayRecord& ray : tree.rays) {
       if (ray.hit) ray.hit->material = scene.triangles[ray.hit->primitive].material;
       for (ShadowRecord& shadow : ray.shadows) shadow.light = decisions.pruned.lights[shadow.light];

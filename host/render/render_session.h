@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/renderer.h"
-#include "wavefront/ray_recorder.h"
+#include "scene/ray_tree.h"
 
 namespace whittle {
 
@@ -18,15 +18,6 @@ struct RenderWork {
   bool queues = false;   ///< allocated
   bool picture = false;  ///< allocated
 };
-
-/// The rays of one sample. Sums of throughput times radiance over them are the sample's radiance, but for
-/// rounding.
-struct RayTree {
-  std::vector<RayRecord> rays;
-  glm::vec3 radiance{0.0F};  ///< as the film got it, W/(m² sr)
-};
-
-inline constexpr int kAllSamples = 1 << 30;
 
 class RenderSession {
  public:
@@ -40,8 +31,8 @@ class RenderSession {
   /// behind is good for the next render.
   RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks = {});
   /// What became of the rays of a pixel (x from the left, y from the top), sample by sample: the kernels'
-  /// numbers. Lights are numbered as in the scene, materials as its triangles'. `samples`: at most so many of
-  /// settings.raysPerPixel. Throws as render.
+  /// numbers, RayTree::radiance as the film got it. `samples`: at most so many of settings.raysPerPixel.
+  /// Throws as render.
   std::vector<RayTree> explain(const Scene& scene, const Settings& settings, int x, int y,
                                const RenderHooks& hooks = {}, int samples = kAllSamples);
   /// The next scene differs from the last in more than its cameras.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "render/explanation.h"
 #include "scene/camera.h"
 
 namespace whittle::view {
@@ -76,21 +75,17 @@ std::vector<DrawnRay> drawnRays(const RayTree& tree, const Scene& scene, const C
   };
   for (std::size_t i = 0; i < tree.rays.size(); ++i) {
     const RayRecord& ray = tree.rays[i];
-    const glm::dvec3 origin(ray.origin);
-    const glm::dvec3 end =
-        ray.hit ? glm::dvec3(ray.hit->position) : origin + size * glm::dvec3(ray.direction);
+    const glm::dvec3 end = ray.hit ? ray.hit->position : ray.origin + size * ray.direction;
     const Line line = lineOf(ray, tree);
     // What goes straight on starts where its parent started.
     const bool isOn = line == Line::Straight && ray.parent >= 0;
     const RayRecord& parent = tree.rays[static_cast<std::size_t>(std::max(ray.parent, 0))];
-    const glm::dvec3 from = line == Line::Eye    ? end
-                            : isOn && parent.hit ? glm::dvec3(parent.hit->position)
-                                                 : origin;
+    const glm::dvec3 from = line == Line::Eye ? end : isOn && parent.hit ? parent.hit->position : ray.origin;
     add(line, from, end, i);
     for (const ShadowRecord& s : ray.shadows) {
-      const double length = std::isfinite(s.length) ? static_cast<double>(s.length) : size;
-      add(s.arrived == glm::vec3(0) ? Line::Blocked : Line::Shadow, glm::dvec3(s.origin),
-          glm::dvec3(s.origin) + length * glm::dvec3(s.direction), i);
+      const double length = std::isfinite(s.length) ? s.length : size;
+      add(s.arrived == glm::dvec3(0) ? Line::Blocked : Line::Shadow, s.origin,
+          s.origin + length * s.direction, i);
     }
   }
   return drawn;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/render_session.h"
+#include "scene/ray_tree.h"
 #include "scene/scene.h"
 
 namespace whittle::view {

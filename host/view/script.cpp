@@ -21,10 +21,10 @@ constexpr double kPatience = 120.0;  ///< seconds that `wait` waits where it is 
 struct Arity {
   std::size_t least, most;
 };
-const std::map<std::string, Arity> kCommands{{"wait", {1, 2}},   {"key", {1, 1}},        {"drag", {4, 6}},
-                                             {"click", {2, 4}},  {"wheel", {3, 4}},      {"set", {2, 2}},
-                                             {"resize", {2, 2}}, {"drop", {1, 1}},       {"expect", {3, 3}},
-                                             {"quit", {0, 0}},   {"screenshot", {1, 1}}, {"print", {1, 1}}};
+const std::map<std::string, Arity> kCommands{
+    {"wait", {1, 2}},       {"key", {1, 1}},    {"drag", {4, 6}},     {"click", {2, 4}},  {"wheel", {3, 4}},
+    {"set", {2, 2}},        {"resize", {2, 2}}, {"drop", {1, 1}},     {"expect", {3, 3}}, {"quit", {0, 0}},
+    {"screenshot", {1, 1}}, {"print", {1, 1}},  {"minimise", {0, 0}}, {"restore", {0, 0}}};
 
 [[noreturn]] void fail(int line, const std::string& text) {
   throw std::runtime_error(fmt::format("script, line {}: {}", line, text));
@@ -136,6 +136,8 @@ bool Script::perform(Stage& stage, const Command& command) {
       if (const std::string problem = stage.set(w[1], w[2]); !problem.empty()) fail(command.line, problem);
     if (w[0] == "resize")
       stage.resize(static_cast<int>(number(w[1]).value_or(0)), static_cast<int>(number(w[2]).value_or(0)));
+    if (w[0] == "minimise") stage.minimise();
+    if (w[0] == "restore") stage.restore();
     if (w[0] == "drop") stage.drop(w[1]);
     // One frame later all of the last one is drawn.
     if (w[0] == "screenshot") {

@@ -4,7 +4,7 @@
 //   wait refined [SECONDS] | wait picture [SECONDS] | wait SECONDS
 //   key NAME            as "r", "F12", "Escape", "Ctrl+S"
 //   drag X0 Y0 X1 Y1 [left|middle|right]     click X Y [left|middle|right]     wheel X Y STEPS
-//   set SETTING VALUE   resize WIDTH HEIGHT   drop FILE   screenshot FILE
+//   set SETTING VALUE   resize WIDTH HEIGHT   minimise   restore   drop FILE   screenshot FILE
 //   expect PATH <|<=|==|!=|>=|> VALUE         of the state as JSON: stats.rays.shadow > 0, view.coarse ==
 //   false print PATH          # a comment           quit
 //
@@ -34,6 +34,8 @@ class Stage {
   virtual void button(const std::string& name, bool isDown) = 0;
   virtual void wheel(double steps) = 0;
   virtual void resize(int width, int height) = 0;
+  virtual void minimise() = 0;
+  virtual void restore() = 0;
   virtual void drop(const std::string& file) = 0;
   /// Of the whole window, as it is drawn next.
   virtual void screenshot(const std::filesystem::path& file) = 0;

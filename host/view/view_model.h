@@ -10,10 +10,15 @@
 #include <vector>
 
 #include "view/color_scale.h"
+#include "render/explanation.h"
 #include "view/live_render.h"
 #include "view/ray_drawing.h"
 
 namespace whittle::view {
+
+/// Switches the comparison of explained rays with the double-precision reference, as ViewModel::set does the
+/// settings; no control.
+inline constexpr const char* kReferenceSwitch = "reference";
 
 /// One setting as a widget: its value is text, as on the command line.
 struct Control {
@@ -100,10 +105,12 @@ class ViewModel {
   struct Explained {
     int x = 0, y = 0;  ///< the pixel
     RayTree tree;
-    std::vector<std::string> titles;              ///< of each ray
-    std::vector<std::vector<std::string>> lines;  ///< and all there is to say of it
+    std::vector<std::string> titles;          ///< of each ray
+    std::vector<std::vector<RayLine>> lines;  ///< and all there is to say of it
     std::vector<DrawnRay> drawn;
-    std::string sum;  ///< of all shares, and what the pixel's sample has
+    std::string sum;      ///< of all shares, and what the pixel's sample has
+    std::string verdict;  ///< how that compares with the reference; empty: not asked, or not there yet
+    bool parts = false;   ///< it does so by more than rounding
   };
   /// Null: none is asked for, or it is not there yet.
   virtual const Explained* explained() const = 0;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "render/aovs.h"
+#include "reference/reference.h"
 #include "render/explanation.h"
 #include "report/stats.h"
 #include "scene/input_error.h"
@@ -118,41 +119,85 @@ Request Viewer::request() const {
 }
 
 void Viewer::ask() {
-  explained_.reset();  // of another picture
-  if (scene_) request_ = live_.ask(request());
+  if (!scene_ || !hasMemory()) return;
+  closeExplanation();  // of another picture
+  request_ = live_.ask(request());
+}
+
+/// Where a picture would take too much, the one before stays.
+bool Viewer::hasMemory() {
+  try {
+    services_.checkPicture(settings_);
+  } catch (const InputError& e) {
+    if (messages_.empty() || messages_.back().text != e.what()) say(true, e.what());
+    return false;
+  }
+  return true;
 }
 
 void Viewer::explain(double x, double y) {
-  if (!scene_ || !(x >= 0 && x < 1 && y >= 0 && y < 1)) return;
-  Followed followed{scene_,
-                    camera_.camera(),
-                    aspect(),
-                    static_cast<int>(x * settings_.width),
-                    static_cast<int>(y * settings_.height),
-                    settings_.raysPerPixel,
-                    {}};
-  const bool isDone = isFinished();
-  live_.explain(request(), followed.x, followed.y, [this, followed](std::vector<RayTree> trees) mutable {
-    followed.tree = std::move(trees.at(0));
-    const std::lock_guard lock(mutex_);
-    followed_ = std::move(followed);
+  if (!scene_ || !(x >= 0 && x < 1 && y >= 0 && y < 1) || !hasMemory()) return;
+  follow(static_cast<int>(x * settings_.width), static_cast<int>(y * settings_.height));
+}
+
+/// The reference comes later: it builds a tree over the scene of its own.
+void Viewer::follow(int x, int y) {
+  const std::uint64_t number = ++follows_;
+  Followed followed{number, request(), x, y, {}, {}};
+  const bool isDone = isFinished(), compares = comparesWithReference_;
+  live_.explain(request(), x, y, [this, compares, followed](const std::vector<RayTree>& trees) mutable {
+    followed.tree = trees.at(0);
+    deliver(followed);
+    if (!compares) return;
+    const Request& r = followed.request;
+    followed.reference = referenceTrees(*r.scene, r.settings, followed.x, followed.y, &r.camera, 1).at(0);
+    deliver(followed);
   });
   if (!isDone) ask();  // it was cut off
+  followed_ = number;
+}
+
+void Viewer::deliver(const Followed& followed) {
+  {
+    const std::lock_guard lock(mutex_);
+    delivered_ = followed;
+  }
+  services_.wake();
 }
 
 ViewModel::Explained Viewer::explainedOf(Followed f) {
-  Explained e{f.x, f.y, std::move(f.tree), {}, {}, {}, {}};
-  for (std::size_t i = 0; i < e.tree.rays.size(); ++i) {
-    e.titles.push_back(rayTitle(e.tree, i, *f.scene));
-    e.lines.push_back(rayLines(e.tree, i, *f.scene));
+  const Scene& scene = *f.request.scene;
+  const Settings& settings = f.request.settings;
+  Explained e;
+  e.x = f.x, e.y = f.y;
+  e.tree = std::move(f.tree);
+  std::optional<TreeComparison> comparison;
+  std::optional<Beside> beside;
+  if (f.reference) {
+    comparison = compareTrees(e.tree, *f.reference);
+    beside.emplace(Beside{*f.reference, *comparison});
+    e.verdict = verdict(e.tree, *beside, scene);
+    e.parts = comparison->parting.has_value();
   }
-  e.drawn = drawnRays(e.tree, *f.scene, f.camera, f.aspect);
+  for (std::size_t i = 0; i < e.tree.rays.size(); ++i) {
+    e.titles.push_back(rayTitle(e.tree, i, scene));
+    e.lines.push_back(rayLines(e.tree, i, scene, beside ? &*beside : nullptr));
+  }
+  e.drawn = drawnRays(e.tree, scene, f.request.camera, static_cast<double>(settings.width) / settings.height);
   const glm::dvec3 sum = sumOf(e.tree);
-  e.sum = fmt::format("sum of {} rays: {:.6g} {:.6g} {:.6g}; the {} has {:.6g} {:.6g} {:.6g}",
-                      e.tree.rays.size(), sum.x, sum.y, sum.z,
-                      f.samples > 1 ? fmt::format("first of {} samples", f.samples) : "pixel",
-                      e.tree.radiance.x, e.tree.radiance.y, e.tree.radiance.z);
+  e.sum = fmt::format(
+      "sum of {} rays: {:.6g} {:.6g} {:.6g}; the {} has {:.6g} {:.6g} {:.6g}", e.tree.rays.size(), sum.x,
+      sum.y, sum.z,
+      settings.raysPerPixel > 1 ? fmt::format("first of {} samples", settings.raysPerPixel) : "pixel",
+      e.tree.radiance.x, e.tree.radiance.y, e.tree.radiance.z);
   return e;
+}
+
+std::string Viewer::switchReference(const std::string& text) {
+  if (text != "on" && text != "off") return fmt::format("reference: '{}' is not one of on|off", text);
+  comparesWithReference_ = text == "on";
+  if (explained_) follow(explained_->x, explained_->y);
+  return {};
 }
 
 /// Reads the scene again once its file was written and has been left alone since the last look.
@@ -179,10 +224,10 @@ bool Viewer::update() {
   {
     const std::lock_guard lock(mutex_);
     loaded.swap(loaded_);
-    followed.swap(followed_);
+    followed.swap(delivered_);
   }
   if (loaded) takeOver(std::move(*loaded)), isNew = true;
-  if (followed && followed->scene == scene_) explained_ = explainedOf(std::move(*followed)), isNew = true;
+  if (followed && followed->number == followed_) explained_ = explainedOf(std::move(*followed)), isNew = true;
   Shown shown = live_.shown();
   if (shown.result != shown_.result || shown.finished != shown_.finished) {
     shown_ = std::move(shown);
@@ -217,8 +262,15 @@ void Viewer::makeCodes() {
 
 bool Viewer::isFinished() const { return shown_.finished && shown_.request == request_; }
 
+std::string Viewer::value(const std::string& id) const {
+  if (id == kLayerControl) return layer_;
+  if (id == kReferenceSwitch) return comparesWithReference_ ? "on" : "off";
+  return services_.value(settings_, id);
+}
+
 std::string Viewer::set(const std::string& id, const std::string& text) {
   if (id == kLayerControl) return showLayer(text);
+  if (id == kReferenceSwitch) return switchReference(text);
   Settings changed = settings_;
   try {
     services_.set(changed, id, text);
@@ -370,7 +422,10 @@ std::string Viewer::stateJson() const {
                    {"programs", p.work.programs},
                    {"scene", p.work.scene ? 1 : 0},
                    {"messages", messages_.size()},
-                   {"explainedRays", explained_ ? explained_->tree.rays.size() : 0}};
+                   {"message", messages_.empty() ? "" : messages_.back().text},
+                   {"explainedRays", explained_ ? explained_->tree.rays.size() : 0},
+                   {"isCompared", explained_ && !explained_->verdict.empty()},
+                   {"parts", explained_ && explained_->parts}};
   return state.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

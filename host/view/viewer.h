@@ -30,6 +30,8 @@ struct Services {
   /// Reads a scene on the render's thread: settles what the settings leave to it, and adds notes. `file`: a
   /// scene or an environment, empty: the same as before. Throws InputError.
   std::function<Scene(const std::filesystem::path& file, Settings&, std::vector<std::string>& notes)> load;
+  /// Throws InputError where a picture of these settings takes more memory than there is.
+  std::function<void(const Settings&)> checkPicture;
   /// Codes of a picture, RGBA.
   std::function<std::vector<std::uint8_t>(const FloatImage&, const Scene&, const Settings&)> codes;
   std::function<std::string(const Camera&, const glm::dvec3& origin)> cameraText;
@@ -57,9 +59,7 @@ class Viewer : public ViewModel {
   bool hasPicture() const override { return shown_.result && shown_.request == request_; }
   const std::vector<Message>& messages() const override { return messages_; }
   const std::vector<Control>& controls() const override { return services_.controls; }
-  std::string value(const std::string& id) const override {
-    return id == kLayerControl ? layer_ : services_.value(settings_, id);
-  }
+  std::string value(const std::string& id) const override;
   std::string set(const std::string& id, const std::string& text) override;
 
   void orbit(double right, double up) override;
@@ -80,7 +80,7 @@ class Viewer : public ViewModel {
   void pasteCamera(const std::string& text) override;
   void setMoving(bool isMoving) override;
   void explain(double x, double y) override;
-  void closeExplanation() override { explained_.reset(); }
+  void closeExplanation() override { explained_.reset(), followed_ = 0; }
   const Explained* explained() const override { return explained_ ? &*explained_ : nullptr; }
 
   void open(const std::filesystem::path& file) override;
@@ -103,14 +103,17 @@ class Viewer : public ViewModel {
   void takeOver(Loaded loaded);
   void settle(const Loaded& loaded);
   Request request() const;
+  bool hasMemory();
   /// A pixel's rays, fresh from the render's thread.
   struct Followed {
-    std::shared_ptr<const Scene> scene;
-    Camera camera;
-    double aspect = 1;
-    int x = 0, y = 0, samples = 1;
+    std::uint64_t number = 0;  ///< see followed_
+    Request request;
+    int x = 0, y = 0;
     RayTree tree;
+    std::optional<RayTree> reference;
   };
+  void follow(int x, int y);
+  void deliver(const Followed& followed);
   static Explained explainedOf(Followed followed);
   void ask();
   void cameraMoved();
@@ -122,6 +125,7 @@ class Viewer : public ViewModel {
   void makeCodes();
   void lookAtFile();
   std::string showLayer(const std::string& layer);
+  std::string switchReference(const std::string& text);
 
   Services services_;
   Settings settings_;
@@ -142,9 +146,12 @@ class Viewer : public ViewModel {
   std::filesystem::file_time_type written_{}, writing_{};
   std::chrono::steady_clock::time_point lookedAt_{};
   std::optional<Explained> explained_;
-  std::mutex mutex_;  ///< of loaded_ and followed_
+  bool comparesWithReference_ = false;
+  std::uint64_t follows_ = 0;   ///< how often a pixel's rays were asked for
+  std::uint64_t followed_ = 0;  ///< the time whose rays are still wanted; 0: none is
+  std::mutex mutex_;            ///< of loaded_ and delivered_
   std::optional<Loaded> loaded_;
-  std::optional<Followed> followed_;
+  std::optional<Followed> delivered_;
   LiveRender live_;  ///< last: its thread uses services_ and loaded_
 };
 

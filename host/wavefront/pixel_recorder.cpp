@@ -7,7 +7,9 @@ namespace whittle {
 namespace {
 
 /// Rec. 709.
-float luminanceOf(const glm::vec3& c) { return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z; }
+float luminanceOf(const glm::dvec3& c) {
+  return static_cast<float>(0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z);
+}
 
 }  // namespace
 

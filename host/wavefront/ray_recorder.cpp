@@ -3,10 +3,20 @@
 #include "wavefront/ray_recorder.h"
 
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "kernels/shared/layout.h"
 
 namespace whittle {
+namespace {
+
+/// Of a shadow ray: the kernels' longest goes on for ever.
+double metresOf(float length) {
+  return length < std::numeric_limits<float>::max() ? static_cast<double>(length)
+                                                    : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
 
 RayRecorder::RayRecorder(Compute& compute, const RayQueues& queues, const DeviceScene& scene,
                          const SceneFeatures& features)
@@ -43,11 +53,12 @@ void RayRecorder::readHits(std::uint32_t count) {
     if (index == NO_HIT) continue;
     device::DeviceTriangle t;
     compute_.read(scene_.triangles, index * sizeof(t), sizeof(t), &t);
-    const auto corner = [&](int c) { return glm::vec3(t.v[c][0], t.v[c][1], t.v[c][2]); };
-    const glm::vec3 e1 = corner(1) - corner(0), e2 = corner(2) - corner(0);
-    glm::vec3 normal = glm::normalize(glm::cross(e1, e2));
-    if (glm::dot(normal, of(i).direction) > 0.0F) normal = -normal;
-    of(i).hit = HitRecord{t.primitive, t.material, b1[i], b2[i], corner(0) + b1[i] * e1 + b2[i] * e2, normal};
+    const auto corner = [&](int c) { return glm::dvec3(t.v[c][0], t.v[c][1], t.v[c][2]); };
+    const glm::dvec3 e1 = corner(1) - corner(0), e2 = corner(2) - corner(0);
+    glm::dvec3 normal = glm::normalize(glm::cross(e1, e2));
+    if (glm::dot(normal, of(i).direction) > 0) normal = -normal;
+    const double u = static_cast<double>(b1[i]), v = static_cast<double>(b2[i]);
+    of(i).hit = HitRecord{t.primitive, t.material, u, v, corner(0) + u * e1 + v * e2, normal};
   }
 }
 
@@ -61,7 +72,7 @@ void RayRecorder::readImpulses(std::uint32_t count, std::uint32_t bounce) {
       if (flags_[i] & (ENTRY_ENDED0 << k)) {
         const float share =
             reader_.plane<float>(queues_.impulses, k * IMPULSE_PLANES + IMPULSE_THROUGHPUT, i, 1)[0];
-        of(i).ended.push_back({std::abs(share), share < 0.0F});
+        of(i).ended.push_back({static_cast<double>(std::abs(share)), share < 0.0F});
       }
       if (!(flags_[i] & (ENTRY_IMPULSE0 << k))) continue;
       RayRecord child;
@@ -93,7 +104,8 @@ void RayRecorder::shaded(const ObservedSegment& s, std::uint32_t light) {
     const auto lengths = reader_.plane<float>(queues_.shadows, SHADOW_LENGTH, 0, count);
     for (std::uint32_t i = 0; i < count; ++i)
       if (flags_[i] & ENTRY_SHADOW)
-        of(i).shadows.push_back({light, origins[i], directions[i], lengths[i], contributions[i], {}});
+        of(i).shadows.push_back(
+            {light, origins[i], directions[i], metresOf(lengths[i]), contributions[i], {}});
   }
   if (light == 0) readImpulses(count, s.bounce);
 }

@@ -51,19 +51,19 @@ class QueueReader {
     return values;
   }
   /// The same of three planes, the first of which is given.
-  std::vector<glm::vec3> vectors(const Buffer& buffer, std::uint32_t firstPlane, std::uint32_t first,
+  std::vector<glm::dvec3> vectors(const Buffer& buffer, std::uint32_t firstPlane, std::uint32_t first,
                                  std::uint32_t count) const {
-    std::vector<glm::vec3> values(count);
+    std::vector<glm::dvec3> values(count);
     for (int axis = 0; axis < 3; ++axis) {
       const auto part = plane<float>(buffer, firstPlane + static_cast<std::uint32_t>(axis), first, count);
-      for (std::uint32_t i = 0; i < count; ++i) values[i][axis] = part[i];
+      for (std::uint32_t i = 0; i < count; ++i) values[i][axis] = static_cast<double>(part[i]);
     }
     return values;
   }
   /// What the entries' rays carry; 1 for eye rays, which have no such planes.
-  std::vector<glm::vec3> throughputs(const ObservedSegment& s) const {
+  std::vector<glm::dvec3> throughputs(const ObservedSegment& s) const {
     const std::uint32_t count = s.segment.count();
-    if (s.bounce == 1) return std::vector<glm::vec3>(count, glm::vec3(1.0F));
+    if (s.bounce == 1) return std::vector<glm::dvec3>(count, glm::dvec3(1));
     return vectors(s.queue, RAY_THROUGHPUT, s.segment.begin, count);
   }
 

@@ -57,6 +57,7 @@ std::vector<Mistake> mistakes() {
       {"SeedNegative", {"render", s, "--seed", "-1"}, {"--seed", "'-1'"}},
       {"ExplainOneNumber", {"render", s, "--explain", "12"}, {"--explain", "'12'", "X,Y"}},
       {"ExplainNegative", {"render", s, "--explain", "3,-1"}, {"--explain", "'-1'"}},
+      {"ReferenceOfNoPixel", {"render", s, "--with-reference"}, {"--with-reference", "--explain"}},
       {"ExplainOutside", {"render", s, "--quiet", "--explain", "640,0"}, {"--explain: 640,0", "640×360"}},
       {"ExposureNan", {"render", s, "--exposure", "nan"}, {"--exposure", "'nan'"}},
       {"RayOffsetNegative", {"render", s, "--bump", "-1"}, {"--ray-offset", "'-1'"}},

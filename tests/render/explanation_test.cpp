@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "render/render_session.h"
+
 #include "support/pictures.h"
 #include "support/single_rays.h"
 
@@ -31,7 +33,7 @@ TEST(Explanation, SumsAreThePixelsAndRaysThoseThatAreCounted) {
           const auto trees = session.explain(scene, settings, x, y, testHooks());
           ASSERT_EQ(trees.size(), 1U);
           const glm::dvec3 pixel(colorOf(picture, static_cast<std::size_t>(y * settings.width + x)));
-          ASSERT_EQ(glm::vec3(pixel), trees[0].radiance) << name << " " << x << "," << y;
+          ASSERT_EQ(pixel, trees[0].radiance) << name << " " << x << "," << y;
           const glm::dvec3 sum = sumOf(trees[0]);
           ASSERT_NEAR(glm::length(sum - pixel), 0, 2e-6 * (1 + glm::length(pixel)))
               << name << " " << x << "," << y;
@@ -53,7 +55,7 @@ TEST(Explanation, SamplesMeanThePixel) {
   const auto trees = session.explain(scene, settings, 8, 4, testHooks());
   ASSERT_EQ(trees.size(), 5U);
   glm::dvec3 mean(0);
-  for (const auto& tree : trees) mean += glm::dvec3(tree.radiance) / 5.0;
+  for (const auto& tree : trees) mean += tree.radiance / 5.0;
   EXPECT_NEAR(glm::length(mean - glm::dvec3(colorOf(picture, 4 * 16 + 8))), 0, 1e-6);
 }
 
@@ -69,13 +71,13 @@ TEST(Explanation, NamesWhatARayDoes) {
   scene.cameras[0].position = {0, 2, 0};
   Settings settings = explainSettings(4, 1);
   RenderSession session;
-  const Explanation e{8, 4, session.explain(scene, settings, 8, 4, testHooks())};
+  const Explanation e{8, 4, session.explain(scene, settings, 8, 4, testHooks()), {}};
   const auto& rays = e.trees[0].rays;
   ASSERT_GE(rays.size(), 3U);
   ASSERT_TRUE(rays[0].hit);
   EXPECT_EQ(scene.materials[rays[0].hit->material].name, "pane");
   EXPECT_NEAR(rays[0].hit->position.y, 1, 1e-6);
-  EXPECT_EQ(rays[0].hit->normal, glm::vec3(0, 1, 0));
+  EXPECT_EQ(rays[0].hit->normal, glm::dvec3(0, 1, 0));
   int reflected = 0, straight = 0;
   for (const auto& ray : rays)
     if (ray.parent == 0) {
@@ -109,7 +111,7 @@ TEST(Explanation, TellsBlockedShadowRaysAndWhatEnds) {
   const auto& ray = trees[0].rays[0];
   ASSERT_EQ(ray.shadows.size(), 2U);
   EXPECT_EQ(ray.shadows[0].light, 0U);
-  EXPECT_EQ(ray.shadows[0].arrived, glm::vec3(0));
+  EXPECT_EQ(ray.shadows[0].arrived, glm::dvec3(0));
   EXPECT_EQ(ray.shadows[1].arrived, ray.shadows[1].contribution);
   EXPECT_GT(ray.shadows[1].arrived.x, 0);
 }

@@ -21,7 +21,7 @@ Camera wideCamera() {
   return camera;
 }
 
-RayRecord rayTo(const glm::vec3& from, const glm::vec3& to) {
+RayRecord rayTo(const glm::dvec3& from, const glm::dvec3& to) {
   RayRecord ray;
   ray.origin = from;
   ray.direction = glm::normalize(to - from);
@@ -50,9 +50,9 @@ TEST(RayDrawing, ImpulsesAndShadowRaysAreLinesOfTheirOwnKind) {
   reflected.parent = refracted.parent = 0;
   tree.rays.push_back(reflected);
   tree.rays.push_back(refracted);
-  ShadowRecord free{0, {0, 0, -1}, {0, 1, 0}, 1, glm::vec3(1), glm::vec3(1)}, blocked = free;
-  blocked.arrived = glm::vec3(0);
-  blocked.length = std::numeric_limits<float>::infinity();
+  ShadowRecord free{0, {0, 0, -1}, {0, 1, 0}, 1, glm::dvec3(1), glm::dvec3(1)}, blocked = free;
+  blocked.arrived = glm::dvec3(0);
+  blocked.length = std::numeric_limits<double>::infinity();
   tree.rays[0].shadows = {free, blocked};
   const auto drawn = view::drawnRays(tree, unitBox(), wideCamera(), 2);
   ASSERT_EQ(drawn.size(), 5U);

@@ -22,6 +22,8 @@ class Recorder : public view::Stage {
   }
   void wheel(double steps) override { log += "wheel " + std::to_string(static_cast<int>(steps)) + "; "; }
   void resize(int w, int h) override { log += "size " + std::to_string(w) + "x" + std::to_string(h) + "; "; }
+  void minimise() override { log += "minimise; "; }
+  void restore() override { log += "restore; "; }
   void drop(const std::string& file) override { log += "drop " + file + "; "; }
   void screenshot(const std::filesystem::path& file) override { log += "shot " + file.string() + "; "; }
   std::string set(const std::string& id, const std::string& text) override {
@@ -62,11 +64,12 @@ std::string failure(const std::string& text) {
 
 TEST(Script, DoesLineByLine) {
   const Recorder stage = played(
-      "# a comment\n\nkey r\nset bounces 3\nwheel 10 20 -2\nresize 640 480\ndrop a.glb # behind\n"
+      "# a comment\n\nkey r\nset bounces 3\nwheel 10 20 -2\nresize 640 480\nminimise\nrestore\ndrop a.glb # "
+      "behind\n"
       "screenshot a.png\nprint stats.rays.shadow\nquit\n");
-  EXPECT_EQ(
-      stage.log,
-      "key r; set bounces 3; wheel -2; size 640x480; drop a.glb; shot a.png; stats.rays.shadow = 12; quit; ");
+  EXPECT_EQ(stage.log,
+            "key r; set bounces 3; wheel -2; size 640x480; minimise; restore; drop a.glb; shot a.png; "
+            "stats.rays.shadow = 12; quit; ");
 }
 
 TEST(Script, ADragGoesThereStepByStep) {

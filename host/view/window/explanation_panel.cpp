@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "view/window/panels.h"
+#include "view/window/style.h"
 
 namespace whittle::view {
 namespace {
@@ -26,6 +27,20 @@ void wordsWrapped(const std::string& text) {
   ImGui::TextUnformatted(line.c_str());
 }
 
+/// What the reference has otherwise.
+void partingWords(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, kSeries[5]);
+  wordsWrapped(text);
+  ImGui::PopStyleColor();
+}
+
+/// Asks for the double-precision reference's rays beside the kernels'.
+void referenceSwitch(ViewModel& model) {
+  bool compares = model.value(kReferenceSwitch) == "on";
+  if (ImGui::Checkbox("reference", &compares)) model.set(kReferenceSwitch, compares ? "on" : "off");
+  tip("the same rays in double precision: what they have otherwise stands below each line");
+}
+
 /// The ray and its children, and which the mouse is on.
 void rayRow(const ViewModel::Explained& e, std::size_t ray, int& hovered) {
   const ImGuiTreeNodeFlags flags =
@@ -34,7 +49,7 @@ void rayRow(const ViewModel::Explained& e, std::size_t ray, int& hovered) {
   const bool isOpen = ImGui::TreeNodeEx("##ray", flags, "%s", e.titles[ray].c_str());
   if (ImGui::IsItemHovered()) hovered = static_cast<int>(ray);
   if (isOpen) {
-    for (const auto& line : e.lines[ray]) wordsWrapped(line);
+    for (const auto& line : e.lines[ray]) line.parts ? partingWords(line.text) : wordsWrapped(line.text);
     for (std::size_t child = ray + 1; child < e.tree.rays.size(); ++child)
       if (e.tree.rays[child].parent == static_cast<int>(ray)) rayRow(e, child, hovered);
     ImGui::TreePop();
@@ -55,6 +70,8 @@ int explanationPanel(ViewModel& model) {
     return hovered;
   }
   wordsWrapped(e->sum);
+  referenceSwitch(model);
+  if (!e->verdict.empty()) e->parts ? partingWords(e->verdict) : wordsWrapped(e->verdict);
   if (!e->tree.rays.empty()) rayRow(*e, 0, hovered);
   return hovered;
 }

@@ -65,6 +65,8 @@ Window::Window(ViewModel& model, const WindowOptions& options) : model_(model), 
   });
   const auto again = [](GLFWwindow* w) { windowOf(w).framesToDraw_ = kFramesAfterEvent; };
   glfwSetWindowRefreshCallback(window_, again);
+  glfwSetWindowIconifyCallback(window_,
+                               [](GLFWwindow* w, int) { windowOf(w).framesToDraw_ = kFramesAfterEvent; });
   glfwSetCursorPosCallback(
       window_, [](GLFWwindow* w, double, double) { windowOf(w).framesToDraw_ = kFramesAfterEvent; });
   glfwSetFramebufferSizeCallback(
@@ -99,17 +101,20 @@ void Window::quit() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 void Window::resize(int width, int height) {
   glfwSetWindowSize(window_, std::clamp(width, 1, 16384), std::clamp(height, 1, 16384));
 }
+void Window::minimise() { glfwIconifyWindow(window_); }
+void Window::restore() { glfwRestoreWindow(window_); }
 void Window::drop(const std::string& file) {
   model_.open(file);
   framesToDraw_ = kFramesAfterEvent;
 }
 
 bool Window::isBusy() const { return !model_.progress().doing.empty(); }
+bool Window::isMinimised() const { return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE; }
 
 void Window::run() {
   while (!glfwWindowShouldClose(window_)) {
-    // Nothing is drawn where nothing changes: a new picture, a key or the mouse wakes it.
-    const bool isWaiting = framesToDraw_ <= 0 && heldKeys_.empty();
+    // Nothing is drawn where nothing changes, or nobody sees it: a new picture, a key or the mouse wakes it.
+    const bool isWaiting = isMinimised() || (framesToDraw_ <= 0 && heldKeys_.empty());
     if (!isWaiting)
       glfwPollEvents();
     else if (options_.script)
@@ -122,7 +127,7 @@ void Window::run() {
     if (options_.script && !options_.script(*this)) quit();
     const bool isDue = now() - drawnAt_ >= kClockSeconds;
     if (isDue && (isBusy() || wasMoving_)) redraw();
-    if (framesToDraw_ <= 0 && heldKeys_.empty()) continue;
+    if (isMinimised() || (framesToDraw_ <= 0 && heldKeys_.empty())) continue;
     frame();
     --framesToDraw_;
   }
@@ -151,8 +156,8 @@ std::string Window::stateJson() const {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   const std::string own = fmt::format(
-      R"(,"window":{{"width":{},"height":{},"frames":{},"pictureX":{},"pictureY":{},"pictureWidth":{},"pictureHeight":{}}}}})",
-      width, height, frames_, picture_.x, picture_.y, picture_.width, picture_.height);
+      R"(,"window":{{"width":{},"height":{},"frames":{},"minimised":{},"pictureX":{},"pictureY":{},"pictureWidth":{},"pictureHeight":{}}}}})",
+      width, height, frames_, isMinimised(), picture_.x, picture_.y, picture_.width, picture_.height);
   state.pop_back();
   return state + own;
 }

@@ -38,6 +38,8 @@ class Window : public Stage {
   void button(const std::string& name, bool isDown) override;
   void wheel(double steps) override { pendingWheel_ += steps; }
   void resize(int width, int height) override;
+  void minimise() override;
+  void restore() override;
   void drop(const std::string& file) override;
   void screenshot(const std::filesystem::path& file) override { pendingShot_ = file; }
   std::string set(const std::string& id, const std::string& text) override { return model_.set(id, text); }
@@ -67,6 +69,7 @@ class Window : public Stage {
   Rect pictureRect(float left, float top, float width, float height) const;
   ImVec2 inPicture(const ImVec2& pointer) const;  ///< [0, 1]²
   bool isBusy() const;
+  bool isMinimised() const;
 
   ViewModel& model_;
   const WindowOptions& options_;

@@ -1,0 +1,97 @@
+// Rendering on a thread of its own, on a device that fails now and then.
+#include "view/live_render.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "cl/error.h"
+#include "support/pictures.h"
+
+namespace whittle::test {
+namespace {
+
+using view::LiveRender;
+using view::Request;
+
+/// What a lost device makes of the call that waits for it.
+constexpr const char* kLost = "waiting for shade: clFinish failed with CL_OUT_OF_RESOURCES (-5)";
+
+/// Whoever is woken is on the render's thread, in the middle of a render: what he throws comes from where the
+/// device's own errors come from.
+class FailingDevice {
+ public:
+  enum class When { Never, BeforeTheFirstLaunch, BetweenTwoPasses };
+
+  FailingDevice() : live_([this] { woken(); }, {}, testKernelFolder()) { ready_ = true; }
+
+  void failOnce(When when) { when_ = when; }
+  LiveRender& live() { return live_; }
+  /// Until the request has its picture, or has failed.
+  void wait(std::uint64_t request) {
+    for (int i = 0; i < 12000; ++i) {
+      const view::Shown shown = live_.shown();
+      if ((shown.finished && shown.request == request) || !live_.progress().error.empty()) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    ADD_FAILURE() << "waited for two minutes";
+  }
+
+ private:
+  void woken() {
+    if (!ready_) return;
+    const When when = when_;
+    const bool isRendering = live_.progress().doing == kLastPhase;
+    if (when == When::Never || !isRendering) return;
+    if (when == When::BetweenTwoPasses && wakes_++ < 1) return;  // the phase itself
+    when_ = When::Never;
+    wakes_ = 0;
+    throw ClError(kLost);
+  }
+
+  std::atomic<bool> ready_{false};
+  std::atomic<When> when_{When::Never};
+  int wakes_ = 0;
+  LiveRender live_;
+};
+
+class LostDevice : public testing::TestWithParam<FailingDevice::When> {};
+
+TEST_P(LostDevice, IsOpenedAgainForTheNextRequest) {
+  const auto scene = std::make_shared<const Scene>(ownScene("cornell_box"));
+  Settings settings = onTestDevice(wholeSettings(3));
+  settings.raysPerPixel = 4;
+  const Request request{scene, scene->cameras[0], settings, false};
+  const FloatImage expected = render(*scene, settings, testHooks()).radiance;
+  FailingDevice device;
+  const std::uint64_t first = device.live().ask(request);
+  device.wait(first);
+  ASSERT_EQ(device.live().progress().error, "");
+  EXPECT_EQ(differingPixels(device.live().shown().result->radiance, expected), 0U);
+
+  device.failOnce(GetParam());
+  Request other = request;
+  other.settings.bounces = 2;
+  device.wait(device.live().ask(other));
+  EXPECT_EQ(device.live().progress().error, kLost);
+  const view::Shown left = device.live().shown();
+  ASSERT_TRUE(left.result) << "the picture before stays, or the passes so far";
+  EXPECT_FALSE(left.finished && left.request != first);
+
+  const std::uint64_t last = device.live().ask(request);
+  device.wait(last);
+  const view::Shown shown = device.live().shown();
+  EXPECT_EQ(device.live().progress().error, "");
+  EXPECT_TRUE(device.live().progress().work.device) << "opened again";
+  EXPECT_EQ(shown.request, last);
+  EXPECT_EQ(differingPixels(shown.result->radiance, expected), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Times, LostDevice,
+                         testing::Values(FailingDevice::When::BeforeTheFirstLaunch,
+                                         FailingDevice::When::BetweenTwoPasses));
+
+}  // namespace
+}  // namespace whittle::test

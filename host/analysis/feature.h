@@ -16,6 +16,10 @@ enum class Feature : int {
 #undef WHITTLE_ENUM
 };
 
+/// A list of the tables, (A, B), as {A, B}: write WHITTLE_LIST and the list's name.
+#define WHITTLE_LIST(...) \
+  { __VA_ARGS__ }
+
 /// What a person calls it.
 const char* featureText(Feature feature);
 /// In the order of their bits.

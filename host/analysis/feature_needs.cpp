@@ -40,9 +40,6 @@ std::map<Feature, std::string> barredFeatures(const Settings& s) {
   return barred;
 }
 
-/// What changes how a surface answers to light shows where there is light, or in an impulse.
-const std::vector<Feature> kScattering{Feature::LIGHTS, Feature::IMPULSES};
-
 /// Light is that of some type, a range that of one with a place.
 std::vector<FeatureNeed> needsOfLights() {
   using F = Feature;
@@ -62,15 +59,11 @@ std::vector<FeatureNeed> otherNeeds() {
   using F = Feature;
   return {
       {F::MICROFACET, {F::LIGHTS}},
-      {F::METAL, {F::MICROFACET, F::MIRROR, F::REFRACTION}},
-      {F::SPECULAR_EXTENSION, kScattering},
-      {F::VERTEX_NORMALS, kScattering},
+      {F::VERTEX_NORMALS, {F::LIGHTS, F::IMPULSES}},
       {F::VERTEX_COLORS, {F::LIGHTS, F::IMPULSES, F::UNLIT, F::ALPHA_MASK, F::AMBIENT}},
       // Impulses: where they start, what they are called, how many there are.
       {F::MIRROR, {F::IMPULSES}},
-      {F::TRANSMISSION, {F::IMPULSES}},
       {F::REFRACTION, {F::TRANSMISSION}},
-      {F::ABSORPTION, {F::TRANSMISSION, F::UNLIT}},  // a way into a volume
       {F::ALPHA_BLEND, {F::IMPULSES}},
       {F::ALPHA_BLEND, {F::STRAIGHT}},
       {F::STRAIGHT, {F::IMPULSES}},
@@ -81,6 +74,15 @@ std::vector<FeatureNeed> otherNeeds() {
       {F::FIXED_RAY_OFFSET, {F::SHADOWS, F::IMPULSES}},
       {F::BACKGROUND_MAP, {F::BACKGROUND}},
   };
+}
+
+std::vector<FeatureNeed> needsOfMaterials() {
+  using enum Feature;
+  std::vector<FeatureNeed> needs;
+#define WHITTLE_NEED(FEATURE, isAsked, reason, OTHERS) needs.push_back({FEATURE, WHITTLE_LIST OTHERS});
+  WHITTLE_MATERIAL_FEATURES(WHITTLE_NEED)
+#undef WHITTLE_NEED
+  return needs;
 }
 
 /// A texture is read by a slot, at coordinates.
@@ -94,19 +96,17 @@ std::vector<FeatureNeed> needsOfTextures() {
                                  {NEAREST_FILTER, {TEXTURES}},
                                  {DEEP_TEXTURES, {TEXTURES}}};
 #undef WHITTLE_FEATURE
-#define WHITTLE_LIST(...) {__VA_ARGS__}
 #define WHITTLE_NEEDS(slot, FEATURE, encoding, factor, OTHERS) \
   needs.push_back({FEATURE, {TEXTURES}});                      \
   needs.push_back({FEATURE, WHITTLE_LIST OTHERS});
   WHITTLE_TEXTURE_SLOTS(WHITTLE_NEEDS)
 #undef WHITTLE_NEEDS
-#undef WHITTLE_LIST
   return needs;
 }
 
 std::vector<FeatureNeed> allNeeds() {
   std::vector<FeatureNeed> needs = needsOfLights();
-  for (const auto& more : {otherNeeds(), needsOfTextures()})
+  for (const auto& more : {otherNeeds(), needsOfMaterials(), needsOfTextures()})
     needs.insert(needs.end(), more.begin(), more.end());
   return needs;
 }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <type_traits>
 
+#include "analysis/feature.h"
 #include "scene/material_predicates.h"
 
 namespace whittle {
@@ -13,17 +15,29 @@ namespace {
 
 constexpr float kMargin = 1e-5F;  ///< relative; what is interpolated loses less to rounding
 
-/// An unlit surface shows base colour, alpha, and its volume's absorption; its normal in an auxiliary output.
+bool isAmong(Feature feature, std::initializer_list<Feature> features) {
+  return std::find(features.begin(), features.end(), feature) != features.end();
+}
+
+/// What an unlit surface shows; its normal in an auxiliary output alone.
 Material unlitParts(const Material& m, bool showsNormal) {
+  using enum Feature;
   Material read;
   read.unlit = true;
   read.doubleSided = m.doubleSided;
-  read.baseColor = m.baseColor;
-  read.baseColorTexture = m.baseColorTexture;
   read.volume = m.volume;
-  read.sigma_a = m.sigma_a;
   read.alphaMode = m.alphaMode;
-  read.alphaCutoff = m.alphaCutoff;
+#define WHITTLE_VECTOR(name, size, least, most, isUnlit) \
+  if (isUnlit) read.name = m.name;
+#define WHITTLE_SCALAR(name, least, most, isUnlit) \
+  if (isUnlit) read.name = m.name;
+#define WHITTLE_SLOT(slot, FEATURE, encoding, factor, OTHERS) \
+  if (isAmong(UNLIT, WHITTLE_LIST OTHERS)) read.slot = m.slot;
+  WHITTLE_MATERIAL_FACTORS(WHITTLE_VECTOR, WHITTLE_SCALAR)
+  WHITTLE_TEXTURE_SLOTS(WHITTLE_SLOT)
+#undef WHITTLE_VECTOR
+#undef WHITTLE_SCALAR
+#undef WHITTLE_SLOT
   if (showsNormal) {
     read.normalTexture = m.normalTexture;
     read.normalScale = m.normalScale;
@@ -93,8 +107,8 @@ Material asRead(const Material& m, const Settings& settings) {
 
 std::string bitsOf(const Material& m) {
   Bits bits;
-#define WHITTLE_VECTOR(name, size) bits.add(m.name);
-#define WHITTLE_SCALAR(name) bits.add(m.name);
+#define WHITTLE_VECTOR(name, ...) bits.add(m.name);
+#define WHITTLE_SCALAR(name, ...) bits.add(m.name);
 #define WHITTLE_SLOT(slot, FEATURE, encoding, factor, OTHERS) bits.add(m.slot);
   WHITTLE_MATERIAL_FACTORS(WHITTLE_VECTOR, WHITTLE_SCALAR)
   WHITTLE_TEXTURE_SLOTS(WHITTLE_SLOT)

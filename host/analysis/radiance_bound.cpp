@@ -23,6 +23,7 @@
 
 #include "analysis/largest_biradiance.h"
 #include "kernels/shared/layout.h"
+#include "scene/material_factors.h"
 #include "scene/material_predicates.h"
 
 namespace whittle {
@@ -62,13 +63,14 @@ double largestLobe(double alpha) {
   return a2 / (std::numbers::pi * least * least) * 0.5 / alpha;
 }
 
+/// In range. A base colour (`color`: with the vertices') may be any that is not negative; metallic and
+/// roughness are clamped where they are read.
 bool isUsual(const Material& m, const glm::dvec3& color) {
-  const auto isShare = [](float v) { return v >= 0.0F && v <= 1.0F; };
-  const auto isPositive = [](const glm::dvec3& v) {
-    return v.x >= 0 && v.y >= 0 && v.z >= 0 && std::isfinite(v.x + v.y + v.z);
-  };
-  return isShare(m.transmission) && isShare(m.specular) && isPositive(color) && isPositive(m.emission) &&
-         isPositive(m.specularColor);
+  Material bounded = m;
+  bounded.baseColor = glm::vec4(1);
+  bounded.metallic = bounded.roughness = 1;
+  return isInRange(bounded) && color.x >= 0 && color.y >= 0 && color.z >= 0 &&
+         std::isfinite(color.x + color.y + color.z);
 }
 
 /// vertexColor: the largest of the scene. biradiance: of all lights on this material.

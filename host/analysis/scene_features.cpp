@@ -118,6 +118,16 @@ std::vector<Question> geometryQuestions(const Needs& n) {
   };
 }
 
+/// A question for each thing that only some materials do.
+std::vector<Question> materialQuestions(const Needs& n) {
+  return {
+#define WHITTLE_QUESTION(FEATURE, isAsked, reason, OTHERS) \
+  {Feature::FEATURE, n.anyMaterial([](const Material& m) { return isAsked; }), reason},
+      WHITTLE_MATERIAL_FEATURES(WHITTLE_QUESTION)
+#undef WHITTLE_QUESTION
+  };
+}
+
 /// A question for each texture slot.
 std::vector<Question> textureQuestions(const Needs& n) {
   return {
@@ -175,17 +185,12 @@ std::vector<Question> impulseQuestions(const Needs& n) {
       {F::ONE_SIDED, n.settings.backFaces == BackFaces::Cull && n.anyMaterial(showsFrontOnly),
        n.settings.backFaces == BackFaces::Cull ? "every surface has two sides" : "back faces are shown",
        true},
-      {F::METAL, n.anyMaterial(isMetallic), "no material is metallic"},
       {F::MIRROR, some && n.anyMaterial(canReflect), some ? "no smooth material reflects" : none},
-      {F::TRANSMISSION, n.anyMaterial(transmits), "no material transmits"},
       {F::REFRACTION, some && n.anyMaterial(refracts), "no transmitting material bounds a volume"},
-      {F::ABSORPTION, n.anyMaterial(absorbs), "no volume absorbs"},
       {F::ALPHA_MASK, n.anyMaterial(isMasked),
        n.pruned.pruning.needlessMasks > 0 ? "masks cut nothing out" : "no material is masked"},
       {F::ALPHA_BLEND, n.anyMaterial(blends),
        n.pruned.pruning.needlessBlends > 0 ? "blended materials are opaque" : "no material is blended"},
-      {F::SPECULAR_EXTENSION, n.anyMaterial(changesSpecular),
-       "no material changes its specular strength or colour"},
       {F::BOTH_BRANCHES, n.twoImpulses(),
        n.settings.impulses == ImpulseMode::One ? "one impulse is chosen at random"
                                                : "no surface sends out two impulses",
@@ -221,8 +226,9 @@ std::vector<Question> cameraQuestions(const Needs& n) {
 
 std::vector<Question> allQuestions(const Needs& needs) {
   std::vector<Question> questions;
-  for (auto part : {geometryQuestions(needs), textureQuestions(needs), lightTypeQuestions(needs),
-                    lightQuestions(needs), impulseQuestions(needs), cameraQuestions(needs)})
+  for (auto part :
+       {geometryQuestions(needs), materialQuestions(needs), textureQuestions(needs),
+        lightTypeQuestions(needs), lightQuestions(needs), impulseQuestions(needs), cameraQuestions(needs)})
     questions.insert(questions.end(), part.begin(), part.end());
   return questions;
 }

@@ -112,9 +112,9 @@ constexpr bool isLinear(int encoding) { return encoding == device::LINEAR; }
 
 device::DeviceMaterial toDevice(const Material& m, TextureAtlas& atlas) {
   device::DeviceMaterial d{};
-#define WHITTLE_VECTOR(name, size) \
+#define WHITTLE_VECTOR(name, size, ...) \
   for (int k = 0; k < size; ++k) d.name[k] = m.name[k];
-#define WHITTLE_SCALAR(name) d.name = m.name;
+#define WHITTLE_SCALAR(name, ...) d.name = m.name;
 #define WHITTLE_INDEX(slot, FEATURE, encoding, factor, OTHERS) \
   d.slot = atlas.add(m.slot, isLinear(device::slot##Encoding));
   WHITTLE_MATERIAL_FACTORS(WHITTLE_VECTOR, WHITTLE_SCALAR)

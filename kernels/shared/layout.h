@@ -45,8 +45,8 @@ WHITTLE_STRUCT(DeviceTriangle) {
 #define MATERIAL_MASK 8u
 #define MATERIAL_BLEND 16u
 
-#define WHITTLE_VECTOR(name, size) float name[size];
-#define WHITTLE_SCALAR(name) float name;
+#define WHITTLE_VECTOR(name, size, ...) float name[size];
+#define WHITTLE_SCALAR(name, ...) float name;
 #define WHITTLE_INDEX(slot, FEATURE, encoding, factor, OTHERS) int slot;
 WHITTLE_STRUCT(DeviceMaterial) {
   WHITTLE_MATERIAL_FACTORS(WHITTLE_VECTOR, WHITTLE_SCALAR)

@@ -14,7 +14,8 @@
 
 // X(slot, FEATURE, encoding, factor, (OTHERS)): the member of Material, and of DeviceMaterial that holds its
 // index; the feature of reading it; how its colours are stored; what is multiplied by it, of a material m
-// (where that is 0 it is not read; 1: it always is); the features of which one must be there for it to show.
+// (where that is 0 it is not read; 1: it always is); the features of which one must be there for it to show,
+// UNLIT among them where an unlit surface shows it.
 #define WHITTLE_TEXTURE_SLOTS(X)                                                                      \
   X(baseColorTexture, BASE_COLOR_TEXTURE, SRGB, 1.0F, (LIGHTS, IMPULSES, UNLIT, ALPHA_MASK, AMBIENT)) \
   X(metallicRoughnessTexture, METALLIC_ROUGHNESS_TEXTURE, LINEAR, 1.0F, (LIGHTS, IMPULSES, AMBIENT))  \
@@ -24,18 +25,28 @@
   X(specularColorTexture, SPECULAR_COLOR_TEXTURE, SRGB, m.specularColor, (SPECULAR_EXTENSION))        \
   X(transmissionTexture, TRANSMISSION_TEXTURE, LINEAR, m.transmission, (TRANSMISSION))
 
-// The numbers of a material, of the same name in Material and DeviceMaterial, in the order of the latter.
-#define WHITTLE_MATERIAL_FACTORS(VECTOR, SCALAR) \
-  VECTOR(baseColor, 4)                           \
-  VECTOR(emission, 3) /* W/(m² sr) */           \
-  SCALAR(metallic)                               \
-  VECTOR(sigma_a, 3) /* 1/m */                   \
-  SCALAR(roughness)                              \
-  VECTOR(specularColor, 3)                       \
-  SCALAR(specular)                               \
-  SCALAR(transmission)                           \
-  SCALAR(ior)                                    \
-  SCALAR(alphaCutoff)                            \
-  SCALAR(normalScale)
+// The numbers of a material, of the same name in Material and DeviceMaterial, in the order of the latter:
+// VECTOR(name, size, least, most, isUnlit), SCALAR(name, least, most, isUnlit). What they may be: outside of
+// that the loader warns, and there may be no bound on radiance. Whether an unlit surface shows them.
+#define WHITTLE_MATERIAL_FACTORS(VECTOR, SCALAR)      \
+  VECTOR(baseColor, 4, 0, 1, 1)                       \
+  VECTOR(emission, 3, 0, FLT_MAX, 0) /* W/(m² sr) */ \
+  SCALAR(metallic, 0, 1, 0)                           \
+  VECTOR(sigma_a, 3, 0, INFINITY, 1) /* 1/m */        \
+  SCALAR(roughness, 0, 1, 0)                          \
+  VECTOR(specularColor, 3, 0, FLT_MAX, 0)             \
+  SCALAR(specular, 0, 1, 0)                           \
+  SCALAR(transmission, 0, 1, 0)                       \
+  SCALAR(ior, 0, FLT_MAX, 0)                          \
+  SCALAR(alphaCutoff, 0, FLT_MAX, 1)                  \
+  SCALAR(normalScale, -FLT_MAX, FLT_MAX, 0)
+
+// What only some materials do: X(FEATURE, isAsked, reason, (OTHERS)): the feature; whether a material m asks
+// for it; what a person is told where none does; the features of which one must be there for it to show.
+#define WHITTLE_MATERIAL_FEATURES(X)                                                                                   \
+  X(METAL, isMetallic(m), "no material is metallic", (MICROFACET, MIRROR, REFRACTION))                                 \
+  X(SPECULAR_EXTENSION, changesSpecular(m), "no material changes its specular strength or colour", (LIGHTS, IMPULSES)) \
+  X(TRANSMISSION, transmits(m), "no material transmits", (IMPULSES))                                                   \
+  X(ABSORPTION, absorbs(m), "no volume absorbs", (TRANSMISSION, UNLIT)) /* a way in */
 
 #endif

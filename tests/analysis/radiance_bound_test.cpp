@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/largest_biradiance.h"
+#include "scene/material_factors.h"
 #include "support/random_scenes.h"
 #include "support/single_rays.h"
 
@@ -92,13 +93,15 @@ TEST(RadianceBound, ThereIsNoneForALightOnASurfaceUnlessItScattersNothing) {
 Material anyMaterialOf(Rng& rng) {
   const auto often0 = [&](float high) { return rng.unit() < 0.5F ? 0.0F : rng.between(0, high); };
   Material m;
-  m.baseColor = {rng.unit(), rng.unit(), rng.unit(), rng.unit()};
+  eachFactor(m, [&](const MaterialFactor& factor, std::span<float> numbers) {
+    if (rng.unit() < 0.3F) return;  // as where a file says nothing
+    for (float& v : numbers) v = rng.between(std::max(factor.least, -2.0F), std::min(factor.most, 2.0F));
+  });
+  // Not so much that one kind hides the others.
   m.metallic = rng.unit() < 0.3F ? 1.0F : often0(1);
-  m.roughness = rng.between(0, 0.6F);
-  m.specular = rng.unit() < 0.5F ? 1.0F : rng.unit();
-  m.specularColor = {rng.unit(), rng.unit(), 2 * rng.unit()};
+  m.roughness *= 0.6F;
   m.transmission = often0(1);
-  m.ior = rng.between(1, 2.5F);
+  m.ior = std::max(m.ior, 1.0F);
   m.volume = rng.unit() < 0.4F;
   m.emission = glm::vec3(often0(0.5F));
   m.alphaMode = rng.unit() < 0.3F ? AlphaMode::Blend : AlphaMode::Opaque;

@@ -88,6 +88,30 @@ TEST(GltfMaterial, ExtensionFactors) {
   EXPECT_TRUE(m.unlit);
 }
 
+TEST(GltfMaterial, AFactorOutsideItsRangeIsKeptAndSaid) {
+  const auto isSaid = [](const Json& json) {
+    GltfBuilder b;
+    b.material(json);
+    b.node({{"mesh", b.triangleMesh({{"material", 0}})}});
+    b.load();
+    return mentions(b.notices.warnings, "material 0: a factor is outside its range");
+  };
+  const auto ofExtension = [&](const char* extension, const char* key, const Json& value) {
+    return isSaid({{"extensions", {{extension, {{key, value}}}}}});
+  };
+  for (const char* key : {"metallicFactor", "roughnessFactor"})
+    for (const auto& [value, isOutside] : {std::pair{-0.01, true}, {0.0, false}, {1.0, false}, {1.01, true}})
+      EXPECT_EQ(isSaid({{"pbrMetallicRoughness", {{key, value}}}}), isOutside) << key << ' ' << value;
+  EXPECT_TRUE(isSaid({{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1.5}}}}}));
+  EXPECT_TRUE(isSaid({{"emissiveFactor", {0, -0.5, 0}}}));
+  EXPECT_TRUE(isSaid({{"alphaCutoff", -0.5}}));
+  EXPECT_TRUE(ofExtension("KHR_materials_transmission", "transmissionFactor", 1.5));
+  EXPECT_TRUE(ofExtension("KHR_materials_specular", "specularFactor", -0.5));
+  EXPECT_TRUE(ofExtension("KHR_materials_specular", "specularColorFactor", {0, 0, -1}));
+  EXPECT_FALSE(ofExtension("KHR_materials_specular", "specularColorFactor", {0, 0, 7}));
+  EXPECT_EQ(materialOf({{"alphaCutoff", 1.5}}).alphaCutoff, 1.5F);
+}
+
 TEST(GltfMaterial, AbsorptionOfVolumes) {
   const auto volume = [](Json v) {
     return materialOf({{"extensions", {{"KHR_materials_volume", std::move(v)}}}});

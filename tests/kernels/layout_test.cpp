@@ -30,8 +30,8 @@ std::map<std::string, std::size_t> hostSizes() {
 
 /// The text of layout.h with the tables of scene_tables.h written out.
 std::string layoutText() {
-#define VECTOR(name, size) "float " #name "[" #size "];"
-#define SCALAR(name) "float " #name ";"
+#define VECTOR(name, size, ...) "float " #name "[" #size "];"
+#define SCALAR(name, ...) "float " #name ";"
 #define INDEX(slot, FEATURE, encoding, factor, OTHERS) "int " #slot ";"
   std::string text = embeddedKernelFiles().at("shared/layout.h");
   text = std::regex_replace(text, std::regex(R"(WHITTLE_MATERIAL_FACTORS\([^)]*\))"),

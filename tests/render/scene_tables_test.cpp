@@ -1,6 +1,8 @@
 // Every row of kernels/shared/scene_tables.h at work: the kernels and the reference, which reads no table,
 // draw the same. A new row is tested here without a line more.
+#include "analysis/material_use.h"
 #include "analysis/scene_features.h"
+#include "scene/material_factors.h"
 #include "support/agreement.h"
 #include "support/pictures.h"
 #include "support/single_rays.h"
@@ -48,13 +50,11 @@ Material busyMaterial() {
   m.emission = {0.2F, 0.1F, 0.3F};
   m.specularColor = {0.9F, 0.6F, 0.4F};
   m.transmission = 0.5F;
-// A factor of 0 would leave its texture unread.
-#define WHITTLE_NO_VECTOR(name, size)
-#define WHITTLE_NOT_0(name) \
-  if (m.name == 0.0F) m.name = 0.4F;
-  WHITTLE_MATERIAL_FACTORS(WHITTLE_NO_VECTOR, WHITTLE_NOT_0)
-#undef WHITTLE_NOT_0
-#undef WHITTLE_NO_VECTOR
+  // A factor of 0 would leave its texture unread.
+  eachFactor(m, [](const MaterialFactor&, std::span<float> numbers) {
+    for (float& v : numbers)
+      if (v == 0.0F) v = 0.4F;
+  });
   return m;
 }
 
@@ -93,6 +93,69 @@ TEST(TextureSlots, EachIsReadAndAgreesWithTheReference) {
   compare(&Material::slot, Feature::FEATURE, #slot);
   WHITTLE_TEXTURE_SLOTS(WHITTLE_COMPARE)
 #undef WHITTLE_COMPARE
+}
+
+/// All textures, a mask that cuts holes out, and an inside that absorbs.
+Material textured(Material m) {
+  for (const auto slot : kTextureSlots) (m.*slot).image = 0;
+  m.alphaMode = AlphaMode::Mask;
+  m.volume = true;
+  return m;
+}
+
+/// A slab, so that its inside shows: through the holes of its top one sees the back of its bottom.
+Scene slab(const Material& material) {
+  Scene scene = texturedFloor(material);
+  addQuad(scene, 0, {-4, -0.5F, -4}, {8, 0, 0}, {0, 0, 8});
+  scene.uv0.resize(scene.positions.size(), {0.75F, 0.25F});  // no hole
+  scene.normals.resize(scene.positions.size(), glm::vec3(0, -1, 0));
+  scene.tangents.resize(scene.positions.size(), glm::vec4(1, 0, 0, 1));
+  return scene;
+}
+
+/// For each factor: a material with its numbers changed, still in range.
+std::map<std::string, Material> changedOnce(const Material& m) {
+  std::map<std::string, Material> changed;
+  eachFactor(m, [&](const MaterialFactor& factor, std::span<const float>) {
+    Material& other = changed[factor.name] = m;
+    eachFactor(other, [&](const MaterialFactor& ofOther, std::span<float> numbers) {
+      if (std::string_view(ofOther.name) != factor.name) return;
+      for (float& v : numbers) v *= 0.8F;
+    });
+  });
+  return changed;
+}
+
+TEST(MaterialFactors, EachIsReadAndAgreesWithTheReference) {
+  const Material material = textured(busyMaterial());
+  Settings settings = smallSettings(2);
+  settings.aovs = true;  // as compareWithReference
+  const RenderResult without = renderOnDevice(slab(material), settings);
+  for (const auto& [name, changed] : changedOnce(material)) {
+    const Agreement with = compareWithReference(slab(changed), settings);
+    expectAgreement(with, name, 4);
+    EXPECT_GT(differingPixels(with.kernel.radiance, without.radiance), 100U) << name;
+  }
+}
+
+/// Two unlit materials are one on the device where the reference draws them alike, and only there.
+TEST(MaterialFactors, AnUnlitSurfaceKeepsThoseThatItShows) {
+  const Settings settings = smallSettings(2);
+  const auto isShown = [&](const Material& a, const Material& b) {
+    const auto pictureOf = [&](const Material& m) { return renderReference(slab(m), settings).radiance; };
+    return differingPixels(pictureOf(a), pictureOf(b)) > 0;
+  };
+  const auto isKept = [&](const Material& a, const Material& b) {
+    return bitsOf(asRead(a, settings)) != bitsOf(asRead(b, settings));
+  };
+  Material unlit = textured(busyMaterial());
+  unlit.unlit = true;
+  std::map<std::string, Material> changed = changedOnce(unlit);
+#define WHITTLE_EMPTIED(slot, FEATURE, encoding, factor, OTHERS) (changed[#slot] = unlit).slot = {};
+  WHITTLE_TEXTURE_SLOTS(WHITTLE_EMPTIED)
+#undef WHITTLE_EMPTIED
+  for (const auto& [name, other] : changed) EXPECT_EQ(isKept(unlit, other), isShown(unlit, other)) << name;
+  expectAgreement(compareWithReference(slab(unlit), settings), "unlit", 4);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/explanation.h"
+#include "render/render_session.h"
 #include "support/pictures.h"
 #include "support/single_rays.h"
 

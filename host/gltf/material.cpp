@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gltf/texture.h"
+#include "scene/ranges.h"
 
 namespace whittle::gltf {
 
@@ -69,7 +70,7 @@ void readExtensions(const Json& json, const std::string& label, TextureReader& t
   if (const Json* e = extension(json, "KHR_materials_ior")) {
     out.ior = factor(*e, "ior", 1.5);
     if (out.ior < 0.0F) {
-      notices.warn(fmt::format("{}: ior must not be negative; 1.5 is used", label));
+      notices.warn(fmt::format("{}: {}; 1.5 is used", label, kIorFlaw));
       out.ior = 1.5F;
     }
   }
@@ -95,16 +96,6 @@ AlphaMode alphaModeOf(const std::string& mode, const std::string& label, Notices
   return AlphaMode::Opaque;
 }
 
-/// Kept as they are, so that the picture shows what the file says; but said.
-void warnOfRange(const Material& m, const std::string& label, Notices& notices) {
-  const auto outside = [](float v) { return !(v >= 0.0F && v <= 1.0F); };
-  bool strange =
-      outside(m.metallic) || outside(m.roughness) || outside(m.transmission) || outside(m.specular);
-  for (int i = 0; i < 4; ++i) strange = strange || outside(m.baseColor[i]);
-  for (int i = 0; i < 3; ++i) strange = strange || !(m.emission[i] >= 0.0F) || !(m.specularColor[i] >= 0.0F);
-  if (strange) notices.warn(fmt::format("{}: a factor is outside its range", label));
-}
-
 /// Roughness from which clear glass looks wrong; textures may make a surface smoother than its factor.
 bool transmitsRoughly(const Material& m) { return m.transmission > 0.0F && m.roughness > 0.2F; }
 
@@ -124,10 +115,12 @@ std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, 
     const std::string label = materialLabel(json, i);
     Material material;
     material.name = json.value("name", "");
+    material.index = index;
     material.alphaMode = alphaModeOf(json.value("alphaMode", "OPAQUE"), label, notices);
     readBase(json, textures, material);
     readExtensions(json, label, textures, material, notices);
-    warnOfRange(material, label, notices);
+    // Kept as they are, so that the picture shows what the file says; but said.
+    if (!factorsFit(material)) notices.warn(fmt::format("{}: {}", label, kFactorFlaw));
     rough += transmitsRoughly(material);
     indices[i + 1] = static_cast<int>(scene.materials.size());
     scene.materials.push_back(std::move(material));

@@ -21,10 +21,10 @@ constexpr double kPatience = 120.0;  ///< seconds that `wait` waits where it is 
 struct Arity {
   std::size_t least, most;
 };
-const std::map<std::string, Arity> kCommands{{"wait", {1, 2}},   {"key", {1, 1}},        {"drag", {4, 6}},
-                                             {"click", {2, 4}},  {"wheel", {3, 4}},      {"set", {2, 2}},
-                                             {"resize", {2, 2}}, {"drop", {1, 1}},       {"expect", {3, 3}},
-                                             {"quit", {0, 0}},   {"screenshot", {1, 1}}, {"print", {1, 1}}};
+const std::map<std::string, Arity> kCommands{
+    {"wait", {1, 2}},       {"key", {1, 1}},    {"drag", {4, 6}},      {"click", {2, 4}},  {"wheel", {3, 4}},
+    {"set", {2, 2}},        {"resize", {2, 2}}, {"drop", {1, 1}},      {"expect", {3, 3}}, {"quit", {0, 0}},
+    {"screenshot", {1, 1}}, {"print", {1, 1}},  {"save-scene", {1, 1}}};
 
 [[noreturn]] void fail(int line, const std::string& text) {
   throw std::runtime_error(fmt::format("script, line {}: {}", line, text));
@@ -137,6 +137,7 @@ bool Script::perform(Stage& stage, const Command& command) {
     if (w[0] == "resize")
       stage.resize(static_cast<int>(number(w[1]).value_or(0)), static_cast<int>(number(w[2]).value_or(0)));
     if (w[0] == "drop") stage.drop(w[1]);
+    if (w[0] == "save-scene") stage.saveScene(w[1]);
     // One frame later all of the last one is drawn.
     if (w[0] == "screenshot") {
       if (frame_ < 2) return false;

@@ -14,6 +14,7 @@ struct PanelState {
   std::map<std::string, std::string> problems;  ///< of values that were not taken
   bool showsHelp = false;
   bool showsPanels = true;
+  bool showsEdit = false;  ///< lights and materials, and the lights' handles
   bool isLight = false;
   bool restyles = false;  ///< the style was changed
 };
@@ -23,6 +24,9 @@ void tip(const std::string& text);
 
 /// Into the current ImGui window.
 void settingsPanel(ViewModel& model, PanelState& state);
+/// One control: label, widget, the way back to its default.
+void controlRow(ViewModel& model, PanelState& state, const Control& c);
+void editPanel(ViewModel& model, PanelState& state);
 void statisticsPanel(const ViewModel& model);
 void cameraPanel(ViewModel& model);
 void messageLine(const ViewModel& model);

@@ -165,6 +165,7 @@ void Window::drawPanels(float width, float height) {
   picture_ = pictureRect(left, 0, std::max(1.0F, width - left - right), std::max(1.0F, height - line));
   drawPicture();
   drawRays(hoveredRay_);
+  drawHandles();
   constexpr auto kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                           ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoBringToFrontOnFocus;
   const auto panel = [&](const char* name, float x, float y, float w, float h, const auto& content) {
@@ -176,6 +177,7 @@ void Window::drawPanels(float width, float height) {
   if (shown) {
     panel("settings", 0, 0, left, height - line, [&] {
       cameraPanel(model_);
+      editPanel(model_, panels_);
       settingsPanel(model_, panels_);
     });
     hoveredRay_ = -1;

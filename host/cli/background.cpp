@@ -11,6 +11,7 @@
 #include "image/image_header.h"
 #include "image/image_io.h"
 #include "report/text.h"
+#include "scene/appearance.h"
 #include "scene/input_error.h"
 
 namespace whittle::cli {
@@ -116,8 +117,8 @@ Background parseBackground(const std::string& text, MemoryBudget& budget, Notice
 void applyBackground(Scene& scene, const std::string& text, const Settings& settings, MemoryBudget& budget,
                      Notices& notices) {
   if (!text.empty()) scene.background = parseBackground(text, budget, notices);
-  scene.background.radiance *= settings.backgroundStrength;
-  scene.background.rotation = settings.backgroundRotation;
+  scene.background.unscaled = scene.background.radiance;
+  turnAndScale(scene.background, settings);
   const bool isBlack = scene.background.radiance == glm::vec3(0.0F);
   if (settings.backgroundStrength != 1.0F && isBlack && settings.backgroundStrength > 0.0F)
     notices.note("--background-strength changes nothing: what surrounds the scene is black");

@@ -23,7 +23,6 @@ using Kind = view::Control::Kind;
 struct Row {
   const char *id, *group, *label;
   Kind kind;
-  bool reloads = false;
   const char* remark = "";
 };
 
@@ -44,14 +43,14 @@ constexpr std::array kRows{
     Row{"ambient", "Light", "ambient", Kind::Real},
     Row{"mirror-roughness", "Light", "mirrors up to", Kind::Real},
     Row{"back-faces", "Light", "back faces", Kind::Choice},
-    Row{"background-rotation", "Light", "background, °", Kind::Real, true},
-    Row{"background-strength", "Light", "background ×", Kind::Real, true},
+    Row{"background-rotation", "Light", "background, °", Kind::Real},
+    Row{"background-strength", "Light", "background ×", Kind::Real},
     Row{"search", "Device", "search", Kind::Choice},
     Row{"lanes", "Device", "lanes", Kind::Choice},
     Row{"wavefront", "Device", "wavefront, rays", Kind::Whole},
     Row{"work-group", "Device", "work-group", Kind::Whole},
     Row{"device", "Device", "device", Kind::Choice},
-    Row{"threads", "Device", "threads", Kind::Whole, false, "threads: of PoCL from the next start"},
+    Row{"threads", "Device", "threads", Kind::Whole, "threads: of PoCL from the next start"},
 };
 
 /// The command line with nothing but these options, bound to settings of its own.
@@ -131,6 +130,22 @@ void setSetting(Settings& settings, const std::string& id, const std::string& te
   settings = options.settings;
 }
 
+std::string optionsText(const Settings& settings) {
+  const Settings standard;
+  std::string text;
+  for (const Row& row : kRows) {
+    const std::string value = settingText(settings, row.id);
+    if (value == settingText(standard, row.id)) continue;
+    const bool hasBlanks = value.find(' ') != std::string::npos;
+    if (!text.empty()) text += ' ';
+    if (row.kind == Kind::Switch)
+      text += fmt::format("--{}{}", value == "on" ? "" : "no-", row.id);
+    else
+      text += fmt::format("--{} {}{}{}", row.id, hasBlanks ? "'" : "", value, hasBlanks ? "'" : "");
+  }
+  return text;
+}
+
 std::vector<view::Control> settingControls(const Settings& standard, const DeviceList& devices) {
   Options options;
   std::vector<view::Control> controls;
@@ -140,7 +155,6 @@ std::vector<view::Control> settingControls(const Settings& standard, const Devic
     c.group = row.group;
     c.label = row.label;
     c.kind = row.kind;
-    c.reloads = row.reloads;
     c.remark = row.remark;
     const CLI::Option* const option = options.app.get_option(fmt::format("--{}", row.id));
     c.tip = fmt::format("--{} {}: {}", row.id, option->get_type_name(), option->get_description());

@@ -22,4 +22,7 @@ std::string settingText(const Settings& settings, const std::string& id);
 /// Throws InputError, with the settings as they were.
 void setSetting(Settings& settings, const std::string& id, const std::string& text);
 
+/// Those controls that are not the defaults of `whittle render`, as its options.
+std::string optionsText(const Settings& settings);
+
 }  // namespace whittle::cli

@@ -15,6 +15,7 @@
 #include "cli/outputs.h"
 #include "cli/setting_controls.h"
 #include "cli/speech.h"
+#include "gltf/edited_copy.h"
 #include "image/image_io.h"
 #include "image/tone_map.h"
 #include "render/peak_memory.h"
@@ -88,6 +89,20 @@ class Sources {
     budget.promiseProgram(kCosts.programBytes);
     promisePicture(budget, kCosts, settings);
     allowedPicture_ = pictureBytes(settings);
+  }
+
+  /// Says what was written.
+  std::string save(const fs::path& copy, const Scene& scene, const Appearance& before,
+                   const Appearance& after) {
+    const std::lock_guard lock(mutex_);
+    EditedScene edited{scene.file, {}, scene.origin, before, after};
+    if (!options_.scene.empty()) edited.sceneName = options_.scene;
+    const fs::path written = writeEditedCopy(edited, copy);
+    bool ofStudio = false;  // one of its lights is of the file now
+    for (std::size_t i = 0; scene.hasStudioLights && i < before.lights.size(); ++i)
+      ofStudio |= differs(before.lights[i], after.lights[i]);
+    return fmt::format("wrote {}{}", written.string(),
+                       ofStudio ? ", without the studio's surroundings: glTF has none" : "");
   }
 
  private:
@@ -169,6 +184,11 @@ int runView(ViewOptions& o) {
   services.save = savePictures;
   // A script leaves nothing behind but what it is told to write.
   services.recent = view::RecentFiles(script ? fs::path() : view::recentFilesStore());
+  services.optionsText = optionsText;
+  services.saveScene = [sources](const fs::path& copy, const Scene& scene, const Appearance& before,
+                                 const Appearance& after) {
+    return sources->save(copy, scene, before, after);
+  };
   services.wake = [&library] { library.wake(); };
   services.compiler = "/proc/self/exe";
   if (!o.kernelFolder.empty()) services.kernelFolder = o.kernelFolder;

@@ -100,10 +100,12 @@ std::optional<std::string> readStart(const std::filesystem::path& path, std::uin
   return std::nullopt;
 }
 
-Json readContainer(Document& document) {
+std::string_view readText(Document& document) {
   if (document.file.empty()) document.fail("is empty");
   const bool isBinary = asText(document.file).starts_with("glTF");
-  return parseJson(document, isBinary ? splitBinary(document) : asText(document.file));
+  return isBinary ? splitBinary(document) : asText(document.file);
 }
+
+Json readContainer(Document& document) { return parseJson(document, readText(document)); }
 
 }  // namespace whittle::gltf

@@ -14,6 +14,8 @@ std::string_view asText(std::span<const std::byte> bytes);
 /// with it, nothing if all is well.
 std::optional<std::string> readStart(const std::filesystem::path& path, std::uint64_t most, Bytes& bytes);
 
+/// The JSON text of Document::file; sets Document::binary. Throws InputError.
+std::string_view readText(Document& document);
 /// The JSON of Document::file, parsed but not checked; sets Document::binary. Throws InputError.
 Json readContainer(Document& document);
 

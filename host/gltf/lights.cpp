@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/ranges.h"
+
 namespace whittle::gltf {
 
 namespace {
@@ -65,9 +67,7 @@ void readCone(const Json& light, const std::string& label, Light& out, Notices& 
   const double inner = number(spot, "innerConeAngle", 0.0);
   out.outerConeAngle = static_cast<float>(std::clamp(outer, 0.0, std::numbers::pi / 2));
   out.innerConeAngle = static_cast<float>(std::clamp(inner, 0.0, static_cast<double>(out.outerConeAngle)));
-  if (!(inner >= 0.0 && inner <= outer && outer <= std::numbers::pi / 2 + 1e-6)) {
-    notices.warn(fmt::format("{}: cone angles outside 0 ≤ inner ≤ outer ≤ 90°; brought inside", label));
-  }
+  if (!coneFits(inner, outer)) notices.warn(fmt::format("{}: {}; brought inside", label, kConeFlaw));
 }
 
 std::optional<LightKind> kindOf(const std::string& type) {
@@ -94,11 +94,8 @@ std::optional<Light> readLight(const Json& json, std::size_t index, Notices& not
     light.intensity[i] =
         static_cast<float>(intensity * (color.size() == 3 ? color[at(i)].get<double>() : 1.0));
   }
-  for (int i = 0; i < 3; ++i) {
-    if (light.intensity[i] >= 0.0F && std::isfinite(light.intensity[i])) continue;
-    notices.warn(
-        fmt::format("{}: its intensity is {}; the light is left out", label,
-                    light.intensity[i] > 0.0F ? "beyond 3.4e38, the most that a float holds" : "negative"));
+  if (const std::string flaw = intensityFlaw(light.intensity); !flaw.empty()) {
+    notices.warn(fmt::format("{}: {}; the light is left out", label, flaw));
     return std::nullopt;
   }
   if (json.contains("range")) {
@@ -156,6 +153,7 @@ void readLights(const Document& document, const Hierarchy& hierarchy, Scene& sce
     if (direction) light->direction = glm::vec3(*direction);
     light->castsShadows = light->castsShadows && document.nodes[at(node)].castsShadows();
     if (light->name.empty()) light->name = document.nodes[at(node)].name;
+    light->node = node;
     scene.lights.push_back(std::move(*light));
   }
 }

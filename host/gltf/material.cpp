@@ -7,6 +7,7 @@
 
 #include "gltf/texture.h"
 #include "scene/material_factors.h"
+#include "scene/ranges.h"
 
 namespace whittle::gltf {
 
@@ -70,7 +71,7 @@ void readExtensions(const Json& json, const std::string& label, TextureReader& t
   if (const Json* e = extension(json, "KHR_materials_ior")) {
     out.ior = factor(*e, "ior", 1.5);
     if (out.ior < 0.0F) {
-      notices.warn(fmt::format("{}: ior must not be negative; 1.5 is used", label));
+      notices.warn(fmt::format("{}: {}; 1.5 is used", label, kIorFlaw));
       out.ior = 1.5F;
     }
   }
@@ -115,11 +116,12 @@ std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, 
     const std::string label = materialLabel(json, i);
     Material material;
     material.name = json.value("name", "");
+    material.index = index;
     material.alphaMode = alphaModeOf(json.value("alphaMode", "OPAQUE"), label, notices);
     readBase(json, textures, material);
     readExtensions(json, label, textures, material, notices);
     // Kept as they are, so that the picture shows what the file says; but said.
-    if (!isInRange(material)) notices.warn(fmt::format("{}: a factor is outside its range", label));
+    if (!isInRange(material)) notices.warn(fmt::format("{}: {}", label, kFactorFlaw));
     rough += transmitsRoughly(material);
     indices[i + 1] = static_cast<int>(scene.materials.size());
     scene.materials.push_back(std::move(material));

@@ -160,6 +160,18 @@ struct RenderSession::State {
   void provideQueues(Compute& compute, const Settings& settings, const Decisions& decisions, PhaseLog& log);
 };
 
+void RenderWork::add(const RenderWork& other) {
+  device |= other.device;
+  programs += other.programs;
+  scene |= other.scene;
+  tables.lights |= other.tables.lights;
+  tables.materials |= other.tables.materials;
+  tables.textures |= other.tables.textures;
+  tables.triangles |= other.tables.triangles;
+  queues |= other.queues;
+  picture |= other.picture;
+}
+
 RenderSession::RenderSession() : state_(std::make_unique<State>()) {}
 RenderSession::~RenderSession() = default;
 RenderSession::RenderSession(RenderSession&&) noexcept = default;
@@ -212,15 +224,21 @@ void RenderSession::State::provideScene(Compute& compute, const Scene& from, con
                                         const Decisions& decisions, const RenderHooks& hooks, PhaseLog& log) {
   const SceneKey wanted{decisions.features.bits() & kSceneBufferFeatures, settings.keepAllFeatures,
                         settings.mirrorRoughness};
-  work.scene = !scene.serves(wanted);
-  if (work.scene)
-    scene.remake(wanted, [&] {
-      TriTree tree = log.time("build tree", [&] { return buildTree(from, decisions); });
-      return log.time("upload", [&] {
-        return uploadScene(compute, from, decisions.pruned, std::move(tree), decisions.features,
-                           hooks.consumed);
-      });
+  DeviceTables tables = tablesOf(from, decisions.pruned);
+  // An edit may ask for texels that were not read before.
+  work.scene = !scene.serves(wanted) || scene.value->tables.texels != tables.texels;
+  if (!work.scene) {
+    work.tables =
+        log.time("upload", [&] { return takeOver(compute, from, std::move(tables), *scene.value); });
+    return;
+  }
+  scene.remake(wanted, [&] {
+    TriTree tree = log.time("build tree", [&] { return buildTree(from, decisions); });
+    return log.time("upload", [&] {
+      return uploadScene(compute, from, decisions.pruned, std::move(tree), decisions.features,
+                         hooks.consumed);
     });
+  });
 }
 
 void RenderSession::State::provideQueues(Compute& compute, const Settings& settings,

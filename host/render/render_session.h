@@ -7,6 +7,7 @@
 
 #include "render/renderer.h"
 #include "scene/ray_tree.h"
+#include "wavefront/device_scene.h"
 
 namespace whittle {
 
@@ -15,8 +16,12 @@ struct RenderWork {
   bool device = false;   ///< opened
   int programs = 0;      ///< compiled, or loaded from the platform's cache
   bool scene = false;    ///< the tree built and the scene uploaded
+  TableChanges tables;   ///< uploaded though the scene was not
   bool queues = false;   ///< allocated
   bool picture = false;  ///< allocated
+
+  /// Of two renders.
+  void add(const RenderWork& other);
 };
 
 class RenderSession {
@@ -27,15 +32,16 @@ class RenderSession {
   RenderSession& operator=(RenderSession&&) noexcept;
 
   /// As the free function of the same name, with the same bits whatever was rendered before. `scene`: the
-  /// same as last time with other cameras at most, unless sceneChanged was called. What a throw leaves
-  /// behind is good for the next render.
+  /// same as last time with other cameras, lights, factors of materials, and radiance and rotation of the
+  /// background at most (setAppearance), unless sceneChanged was called. What a throw leaves behind is good
+  /// for the next render.
   RenderResult render(const Scene& scene, const Settings& settings, const RenderHooks& hooks = {});
   /// What became of the rays of a pixel (x from the left, y from the top), sample by sample: the kernels'
   /// numbers, RayTree::radiance as the film got it. `samples`: at most so many of settings.raysPerPixel.
   /// Throws as render.
   std::vector<RayTree> explain(const Scene& scene, const Settings& settings, int x, int y,
                                const RenderHooks& hooks = {}, int samples = kAllSamples);
-  /// The next scene differs from the last in more than its cameras.
+  /// The next scene differs from the last in more than that.
   void sceneChanged();
   /// Everything on the device is let go and the device closed, as after it was lost.
   void close();

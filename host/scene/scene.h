@@ -82,6 +82,7 @@ struct Material {
   AlphaMode alphaMode = AlphaMode::Opaque;
   float alphaCutoff = 0.5F;
   bool doubleSided = false;
+  int index = -1;  ///< in the file; -1: it is not of the file
 };
 
 /// The texture slots that rendering reads, in the order of kernels/shared/scene_tables.h.
@@ -143,6 +144,7 @@ struct Light {
   float innerConeAngle = 0.0F;                           ///< radians, half angle; full intensity inside
   float outerConeAngle = 0.785398163F;                   ///< radians, half angle; dark outside
   bool castsShadows = true;
+  int node = -1;  ///< of the file, that it hangs on; -1: it is not of the file
 };
 
 /// Looks along -Z of its node, +Y up. All three axes are world-space unit vectors.
@@ -172,6 +174,7 @@ struct Background {
   /// Degrees about +Y, counter-clockwise seen from above: at 90 what the map has at +X is seen
   /// along -Z. Finite.
   double rotation = 0.0;
+  glm::vec3 unscaled{0.0F};  ///< `radiance` before a strength was applied (turnAndScale)
 };
 
 /// Per-vertex arrays are either empty (no triangle of the scene needs them) or as long as `positions`.

@@ -63,14 +63,15 @@ void LiveRender::run(std::string doing, std::function<void()> work) {
   changed_.notify_all();
 }
 
-void LiveRender::take(const std::shared_ptr<const Scene>& scene) {
-  if (onDevice_ != scene) session_.sceneChanged();
-  onDevice_ = scene;
+void LiveRender::take(const Request& request) {
+  if (onDevice_ != request.scene) session_.sceneChanged();
+  onDevice_ = request.scene;
+  setAppearance(*request.appearance, *request.scene);
 }
 
 void LiveRender::explain(Request request, int x, int y, std::function<void(std::vector<RayTree>)> done) {
   auto work = [this, request = std::move(request), x, y, done = std::move(done)] {
-    take(request.scene);
+    take(request);
     RenderHooks hooks;
     hooks.kernelFolder = kernelFolder_;
     hooks.compiler = compiler_;
@@ -154,10 +155,11 @@ RenderHooks LiveRender::hooksFor(std::uint64_t number, bool coarse) {
 }
 
 void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
-  take(request.scene);
+  take(request);
   const Scene& scene = *request.scene;
   Settings settings = request.settings;
   settings.keepFeatures |= kOfCamera;
+  RenderWork work;
   if (request.coarseFirst && settings.width >= 2 * kCoarse && settings.height >= 2 * kCoarse) {
     Settings coarse = settings;
     coarse.width /= kCoarse;
@@ -172,15 +174,17 @@ void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
     };
     hooks.keepGoing = [&] { return !hasAll && isWanted(number); };
     session_.render(scene, coarse, hooks);
+    work = session_.work();
   }
   if (!isWanted(number)) return;
   RenderHooks hooks = hooksFor(number, false);
   hooks.camera = &request.camera;
   RenderResult result = session_.render(scene, settings, hooks);
   const bool whole = isWanted(number);
+  work.add(session_.work());
   {
     const std::lock_guard lock(mutex_);
-    progress_.work = session_.work();
+    progress_.work = work;
   }
   if (whole) show(std::move(result), number, false, true);
 }

@@ -14,14 +14,17 @@
 #include <vector>
 
 #include "render/render_session.h"
+#include "scene/appearance.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
 namespace whittle::view {
 
-/// What a picture is made of. Scenes are shared, not copied: whoever changes one makes another.
+/// What a picture is made of. Scenes are shared, not copied: the render's thread alone writes the numbers of
+/// `appearance` into them, and nobody else reads those of a scene that was asked for.
 struct Request {
-  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<Scene> scene;
+  std::shared_ptr<const Appearance> appearance;
   Camera camera;  ///< in the place of all of the scene's
   Settings settings;
   /// First a picture of a quarter of the width and height, with one sample for each pixel.
@@ -80,7 +83,7 @@ class LiveRender {
   void show(RenderResult result, std::uint64_t number, bool coarse, bool finished);
   bool isWanted(std::uint64_t number) const;
   void fail(const std::string& text);
-  void take(const std::shared_ptr<const Scene>& scene);
+  void take(const Request& request);
 
   std::function<void()> wake_;
   std::filesystem::path compiler_;

@@ -91,4 +91,9 @@ std::vector<DrawnRay> drawnRays(const RayTree& tree, const Scene& scene, const C
   return drawn;
 }
 
+std::optional<glm::dvec2> placeInPicture(const glm::dvec3& point, const Camera& camera, double aspect) {
+  const auto drawn = Projection(camera, aspect)(point, point);
+  return drawn ? std::optional(glm::dvec2(drawn->x0, drawn->y0)) : std::nullopt;
+}
+
 }  // namespace whittle::view

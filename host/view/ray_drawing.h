@@ -1,6 +1,7 @@
 // The rays of a pixel as lines over its picture.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scene/ray_tree.h"
@@ -20,5 +21,8 @@ struct DrawnRay {
 /// What of the tree's rays lies before the camera. Rays that leave the scene, and those to lights without a
 /// place, are as long as its box is large. An eye ray is a point: where it meets something.
 std::vector<DrawnRay> drawnRays(const RayTree& tree, const Scene& scene, const Camera& camera, double aspect);
+
+/// A point in the same shares; nothing: it lies behind the camera.
+std::optional<glm::dvec2> placeInPicture(const glm::dvec3& point, const Camera& camera, double aspect);
 
 }  // namespace whittle::view

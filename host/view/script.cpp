@@ -22,9 +22,10 @@ struct Arity {
   std::size_t least, most;
 };
 const std::map<std::string, Arity> kCommands{
-    {"wait", {1, 2}},       {"key", {1, 1}},    {"drag", {4, 6}},     {"click", {2, 4}},  {"wheel", {3, 4}},
-    {"set", {2, 2}},        {"resize", {2, 2}}, {"drop", {1, 1}},     {"expect", {3, 3}}, {"quit", {0, 0}},
-    {"screenshot", {1, 1}}, {"print", {1, 1}},  {"minimise", {0, 0}}, {"restore", {0, 0}}};
+    {"wait", {1, 2}},     {"key", {1, 1}},     {"drag", {4, 6}},       {"click", {2, 4}},
+    {"wheel", {3, 4}},    {"set", {2, 2}},     {"resize", {2, 2}},     {"drop", {1, 1}},
+    {"expect", {3, 3}},   {"quit", {0, 0}},    {"screenshot", {1, 1}}, {"print", {1, 1}},
+    {"minimise", {0, 0}}, {"restore", {0, 0}}, {"save-scene", {1, 1}}};
 
 [[noreturn]] void fail(int line, const std::string& text) {
   throw std::runtime_error(fmt::format("script, line {}: {}", line, text));
@@ -139,6 +140,7 @@ bool Script::perform(Stage& stage, const Command& command) {
     if (w[0] == "minimise") stage.minimise();
     if (w[0] == "restore") stage.restore();
     if (w[0] == "drop") stage.drop(w[1]);
+    if (w[0] == "save-scene") stage.saveScene(w[1]);
     // One frame later all of the last one is drawn.
     if (w[0] == "screenshot") {
       if (frame_ < 2) return false;

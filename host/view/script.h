@@ -5,6 +5,7 @@
 //   key NAME            as "r", "F12", "Escape", "Ctrl+S"
 //   drag X0 Y0 X1 Y1 [left|middle|right]     click X Y [left|middle|right]     wheel X Y STEPS
 //   set SETTING VALUE   resize WIDTH HEIGHT   minimise   restore   drop FILE   screenshot FILE
+//   save-scene FILE
 //   expect PATH <|<=|==|!=|>=|> VALUE         of the state as JSON: stats.rays.shadow > 0, view.coarse ==
 //   false print PATH          # a comment           quit
 //
@@ -40,6 +41,7 @@ class Stage {
   /// Of the whole window, as it is drawn next.
   virtual void screenshot(const std::filesystem::path& file) = 0;
   virtual std::string set(const std::string& id, const std::string& text) = 0;  ///< as ViewModel::set
+  virtual void saveScene(const std::filesystem::path& file) = 0;                ///< as EditModel::save
   virtual bool hasPicture() const = 0;  ///< of what was asked for last, coarse or not
   virtual bool isFinished() const = 0;
   virtual std::string stateJson() const = 0;

@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "view/color_scale.h"
 #include "render/explanation.h"
+#include "view/color_scale.h"
+#include "view/edit_model.h"
 #include "view/live_render.h"
 #include "view/ray_drawing.h"
 
@@ -22,7 +23,8 @@ inline constexpr const char* kReferenceSwitch = "reference";
 
 /// One setting as a widget: its value is text, as on the command line.
 struct Control {
-  enum class Kind : std::uint8_t { Switch, Whole, Real, Choice, Text };
+  /// Share: from 0 to 1. Amount: a number, more likely to be changed by a part of it. Color: three shares.
+  enum class Kind : std::uint8_t { Switch, Whole, Real, Choice, Text, Share, Amount, Color };
 
   std::string id;  ///< its option without the hyphens in front: "rays-per-pixel"
   std::string group, label, unit;
@@ -31,7 +33,6 @@ struct Control {
   std::vector<std::string> captions;  ///< what a Choice shows for each of its words, where it is another text
   std::string standard;               ///< the default
   std::string tip;                    ///< the option's help
-  bool reloads = false;               ///< the scene is read again
   std::string remark;                 ///< "at the next start", or empty
 };
 
@@ -72,6 +73,10 @@ class ViewModel {
 
   virtual const std::vector<Control>& controls() const = 0;
   virtual std::string value(const std::string& id) const = 0;
+  /// Lights and materials.
+  virtual EditModel& edits() = 0;
+  /// The settings that are not the defaults of `whittle render`, as its options.
+  virtual std::string optionsText() const = 0;
   /// Returns what is wrong with the value, in the command line's words; empty: it was taken.
   virtual std::string set(const std::string& id, const std::string& text) = 0;
 

@@ -10,8 +10,8 @@
 #include <numbers>
 #include <utility>
 
-#include "render/aovs.h"
 #include "reference/reference.h"
+#include "render/aovs.h"
 #include "render/explanation.h"
 #include "report/stats.h"
 #include "scene/input_error.h"
@@ -25,6 +25,10 @@ constexpr std::size_t kMessages = 200;
 constexpr std::chrono::milliseconds kLookEvery{400};  ///< at the scene's file
 /// Settings that only change how radiance becomes codes.
 bool isOfCodes(const std::string& id) { return id == "exposure" || id == "tone-map"; }
+/// Those that are edits of the scene.
+bool isOfBackground(const std::string& id) {
+  return id == "background-rotation" || id == "background-strength";
+}
 
 }  // namespace
 
@@ -32,6 +36,7 @@ Viewer::Viewer(Services services, const Settings& settings, const std::filesyste
     : services_(std::move(services)),
       settings_(settings),
       layer_(kBeauty),
+      editor_(owner()),
       live_(services_.wake, services_.compiler, services_.kernelFolder) {
   Control layer;
   layer.id = kLayerControl;
@@ -74,7 +79,7 @@ void Viewer::load(const std::filesystem::path& file, bool keepsCamera) {
     loaded.before = loaded.settings = settings;
     loaded.keepsCamera = keepsCamera;
     try {
-      loaded.scene = std::make_shared<const Scene>(services_.load(file, loaded.settings, loaded.notes));
+      loaded.scene = std::make_shared<Scene>(services_.load(file, loaded.settings, loaded.notes));
     } catch (const std::exception& e) {
       loaded.problem = e.what();
     }
@@ -100,10 +105,13 @@ void Viewer::takeOver(Loaded loaded) {
     if (!isFinished()) ask();  // what was under way goes on
     return;
   }
-  const bool isFirst = !scene_;
+  const bool isFirst = !scene_, isSameFile = scene_ && scene_->file == loaded.scene->file;
   scene_ = loaded.scene;
   bounds_ = boundsOf(*scene_);
+  background_.unscaled = scene_->background.unscaled;
   settle(loaded);
+  editor_.take(*scene_, isSameFile);
+  renewAppearance();
   for (auto& text : loaded.notes) say(false, std::move(text));
   file_ = scene_->file;
   if (!loaded.keepsCamera) services_.recent.add(file_);
@@ -115,13 +123,60 @@ void Viewer::takeOver(Loaded loaded) {
 Request Viewer::request() const {
   Settings settings = settings_;
   if (layer_ != kBeauty) askForAov(settings, layer_);
-  return {scene_, camera_.camera(), settings, isMoving_};
+  return {scene_, appearance_, camera_.camera(), settings, isMoving_};
 }
 
-void Viewer::ask() {
+void Viewer::ask(bool coarseFirst) {
   if (!scene_ || !hasMemory()) return;
   closeExplanation();  // of another picture
-  request_ = live_.ask(request());
+  Request wanted = request();
+  wanted.coarseFirst |= coarseFirst;
+  request_ = live_.ask(std::move(wanted));
+}
+
+SceneEditor::Owner Viewer::owner() {
+  SceneEditor::Owner owner;
+  owner.edited = [this] { edited(); };
+  owner.say = [this](bool isError, std::string text) { say(isError, std::move(text)); };
+  owner.save = [this](const std::filesystem::path& copy, const Appearance& file, const Appearance& edited) {
+    if (!scene_) throw InputError("there is no scene yet");
+    return services_.saveScene(copy, *scene_, file, edited);
+  };
+  owner.camera = [this]() -> const Camera& { return camera_.camera(); };
+  owner.aspect = [this] { return aspect(); };
+  return owner;
+}
+
+void Viewer::renewAppearance() {
+  Appearance now = editor_.appearance();
+  turnAndScale(background_, settings_);
+  now.backgroundRadiance = background_.radiance;
+  now.backgroundRotation = background_.rotation;
+  appearance_ = std::make_shared<const Appearance>(std::move(now));
+}
+
+void Viewer::edited() {
+  if (!neededBefore_ && shown_.result) neededBefore_ = shown_.result->stats.featuresUsed;
+  renewAppearance();
+  ask(true);
+}
+
+/// What an edit made needless, and what it needs, once its first picture is there.
+void Viewer::sayNeeds() {
+  if (!neededBefore_ || !hasPicture()) return;
+  const auto before = *std::exchange(neededBefore_, std::nullopt);
+  const auto& now = shown_.result->stats.featuresUsed;
+  const auto sayMissing = [&](const std::vector<std::string>& from, const std::vector<std::string>& in,
+                              const char* what) {
+    std::vector<std::string> missing;
+    for (const auto& feature : from)
+      if (std::find(in.begin(), in.end(), feature) == in.end()) missing.push_back(feature);
+    if (!missing.empty())
+      say(false,
+          fmt::format("{} {} now {}", fmt::join(missing, ", "), missing.size() > 1 ? "are" : "is", what));
+  };
+  sayMissing(before, now, "left out");
+  sayMissing(now, before, "needed");
 }
 
 /// Where a picture would take too much, the one before stays.
@@ -227,11 +282,16 @@ bool Viewer::update() {
     followed.swap(delivered_);
   }
   if (loaded) takeOver(std::move(*loaded)), isNew = true;
-  if (followed && followed->number == followed_) explained_ = explainedOf(std::move(*followed)), isNew = true;
+  if (followed && followed->number == followed_) {
+    explained_ = explainedOf(std::move(*followed)), isNew = true;
+    const auto& rays = explained_->tree.rays;
+    if (!rays.empty() && rays[0].hit) editor_.choose(Part::Material, rays[0].hit->material);
+  }
   Shown shown = live_.shown();
   if (shown.result != shown_.result || shown.finished != shown_.finished) {
     shown_ = std::move(shown);
     makeCodes();
+    sayNeeds();
     isNew = true;
   }
   const std::string error = live_.progress().error;
@@ -265,12 +325,14 @@ bool Viewer::isFinished() const { return shown_.finished && shown_.request == re
 std::string Viewer::value(const std::string& id) const {
   if (id == kLayerControl) return layer_;
   if (id == kReferenceSwitch) return comparesWithReference_ ? "on" : "off";
+  if (SceneEditor::isId(id)) return editor_.value(id);
   return services_.value(settings_, id);
 }
 
 std::string Viewer::set(const std::string& id, const std::string& text) {
   if (id == kLayerControl) return showLayer(text);
   if (id == kReferenceSwitch) return switchReference(text);
+  if (SceneEditor::isId(id)) return editor_.set(id, text);
   Settings changed = settings_;
   try {
     services_.set(changed, id, text);
@@ -278,12 +340,10 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
     return e.what();
   }
   settings_ = changed;
-  const auto control = std::find_if(services_.controls.begin(), services_.controls.end(),
-                                    [&](const Control& c) { return c.id == id; });
   if (isOfCodes(id))
     makeCodes();
-  else if (control != services_.controls.end() && control->reloads)
-    load({}, true);
+  else if (isOfBackground(id))
+    edited();
   else
     ask();
   return {};
@@ -423,9 +483,14 @@ std::string Viewer::stateJson() const {
                    {"scene", p.work.scene ? 1 : 0},
                    {"messages", messages_.size()},
                    {"message", messages_.empty() ? "" : messages_.back().text},
+                   {"lights", p.work.tables.lights ? 1 : 0},
+                   {"materials", p.work.tables.materials ? 1 : 0},
+                   {"triangles", p.work.tables.triangles ? 1 : 0},
+                   {"options", optionsText()},
                    {"explainedRays", explained_ ? explained_->tree.rays.size() : 0},
                    {"isCompared", explained_ && !explained_->verdict.empty()},
                    {"parts", explained_ && explained_->parts}};
+  state["edit"] = editor_.state();
   return state.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -13,6 +13,7 @@
 #include "view/hand_camera.h"
 #include "view/live_render.h"
 #include "view/recent_files.h"
+#include "view/scene_editor.h"
 #include "view/view_model.h"
 
 namespace whittle::view {
@@ -40,6 +41,13 @@ struct Services {
   /// Writes pictures called after `stem` and returns what was written. Throws.
   std::function<std::string(const std::filesystem::path&, const RenderResult&, const Scene&, const Settings&)>
       save;
+  /// As options of the command line.
+  std::function<std::string(const Settings&)> optionsText;
+  /// Writes a copy of the scene's file with the differences of the two and returns what was written; an empty
+  /// name: beside the file. Throws.
+  std::function<std::string(const std::filesystem::path& copy, const Scene&, const Appearance& file,
+                            const Appearance& edited)>
+      saveScene;
   std::function<void()> wake;  ///< the window: there is something new; any thread
   RecentFiles recent{{}};
   std::filesystem::path compiler;
@@ -61,6 +69,8 @@ class Viewer : public ViewModel {
   const std::vector<Control>& controls() const override { return services_.controls; }
   std::string value(const std::string& id) const override;
   std::string set(const std::string& id, const std::string& text) override;
+  EditModel& edits() override { return editor_; }
+  std::string optionsText() const override { return services_.optionsText(settings_); }
 
   void orbit(double right, double up) override;
   void pan(double right, double up) override;
@@ -93,7 +103,7 @@ class Viewer : public ViewModel {
  private:
   /// What the render's thread has read.
   struct Loaded {
-    std::shared_ptr<const Scene> scene;
+    std::shared_ptr<Scene> scene;
     Settings before, settings;  ///< what loading was given, and what it made of that
     std::vector<std::string> notes;
     bool keepsCamera = false;
@@ -115,7 +125,12 @@ class Viewer : public ViewModel {
   void follow(int x, int y);
   void deliver(const Followed& followed);
   static Explained explainedOf(Followed followed);
-  void ask();
+  void ask(bool coarseFirst = false);
+  SceneEditor::Owner owner();
+  /// Lights, materials or the background were.
+  void edited();
+  void renewAppearance();
+  void sayNeeds();
   void cameraMoved();
   void say(bool isError, std::string text);
   double aspect() const;
@@ -129,9 +144,14 @@ class Viewer : public ViewModel {
 
   Services services_;
   Settings settings_;
-  std::string layer_;                   ///< that is shown, kBeauty or one of kAovNames
-  std::shared_ptr<const Scene> scene_;  ///< null: none yet
-  Bounds bounds_;                       ///< of its triangles
+  std::string layer_;             ///< that is shown, kBeauty or one of kAovNames
+  std::shared_ptr<Scene> scene_;  ///< null: none yet; its appearance is the render's (Request)
+  SceneEditor editor_;
+  Background background_;                         ///< of the scene, without its map
+  std::shared_ptr<const Appearance> appearance_;  ///< as it is edited
+  /// What the picture before an edit needed; unset: nothing was edited since.
+  std::optional<std::vector<std::string>> neededBefore_;
+  Bounds bounds_;  ///< of its triangles
   HandCamera camera_;
   bool isMoving_ = false;
   Shown shown_;

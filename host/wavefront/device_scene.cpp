@@ -5,134 +5,22 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cassert>
 #include <cmath>
-#include <map>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "kernels/shared/layout.h"
 #include "scene/free_array.h"
 #include "scene/machine_memory.h"
-#include "scene/material_predicates.h"
 
 namespace whittle {
 namespace {
 
 static_assert(sizeof(device::Node) == sizeof(TreeNode));
 static_assert(sizeof(device::DeviceTriangle) == 48);
-static_assert(sizeof(device::DeviceLight) == 64);
-static_assert(sizeof(device::DeviceTexture) == 52);
 static_assert(sizeof(device::DeviceCamera) == 128);
-
-/// Texture slots and texels of the images they use, shared where two slots are the same or read
-/// the same image.
-class TextureAtlas {
- public:
-  TextureAtlas(const Scene& scene, const PrunedScene& pruned) : scene_(scene), pruned_(pruned) {}
-
-  /// Index of the slot on the device, -1 for an empty one.
-  int add(const TextureSlot& slot, bool isLinear) {
-    if (!slot.used()) return -1;
-    const Image& image = imageOf(slot.image);
-    const bool isDeep = readsDeepTexels(image, isLinear);
-    device::DeviceTexture t{};
-    std::copy(slot.transform.begin(), slot.transform.end(), t.transform);
-    t.firstTexel = firstTexel(slot.image, isDeep);
-    t.width = image.width;
-    t.height = image.height;
-    t.wrapS = static_cast<std::uint32_t>(slot.wrapS);
-    t.wrapT = static_cast<std::uint32_t>(slot.wrapT);
-    t.flags = (slot.filter == Filter::Nearest ? TEXTURE_NEAREST : 0U) | (isDeep ? TEXTURE_DEEP : 0U);
-    t.uvSet = static_cast<std::uint32_t>(slot.uvSet);
-    return indexOf(t);
-  }
-
-  /// The texels of all images as words, the first channel lowest; they go from the images to the device
-  /// without another copy in between, an image after the other.
-  Buffer upload(Compute& compute, Scene* consumed) const {
-    static_assert(std::endian::native == std::endian::little);
-    Buffer buffer = compute.allocate("texels", std::size_t{words_} * 4);
-    for (auto next = first_.begin(); next != first_.end();) {
-      const auto& [key, word] = *next;
-      const Image& image = imageOf(key.first);
-      const std::size_t at = std::size_t{word} * 4;
-      key.second ? compute.write(buffer, at, std::as_bytes(std::span(image.deepTexels)))
-                 : compute.write(buffer, at, std::as_bytes(std::span(image.texels)));
-      const int index = key.first;
-      ++next;
-      const bool whole = next == first_.end() || next->first.first != index;
-      if (!whole || !consumed) continue;
-      Image& taken = consumed->images[pruned_.images[static_cast<std::size_t>(index)]];
-      freeArray(taken.texels);
-      freeArray(taken.deepTexels);
-    }
-    return buffer;
-  }
-
-  std::vector<device::DeviceTexture> slots;
-
- private:
-  const Image& imageOf(int index) const {
-    return scene_.images[pruned_.images[static_cast<std::size_t>(index)]];
-  }
-
-  int indexOf(const device::DeviceTexture& t) {
-    const std::string bits(reinterpret_cast<const char*>(&t), sizeof(t));
-    const auto [at, isNew] = known_.try_emplace(bits, static_cast<int>(slots.size()));
-    if (!isNew && pruned_.sharesSlots) return at->second;
-    slots.push_back(t);
-    return static_cast<int>(slots.size()) - 1;
-  }
-
-  /// An image that colours and other values read is there in both forms.
-  std::uint32_t firstTexel(int index, bool isDeep) {
-    const auto [at, isNew] = first_.try_emplace({index, isDeep}, words_);
-    const Image& image = imageOf(index);
-    if (isNew)
-      words_ += static_cast<std::uint32_t>(isDeep ? image.deepTexels.size() / 2 : image.texels.size() / 4);
-    return at->second;
-  }
-
-  const Scene& scene_;
-  const PrunedScene& pruned_;
-  std::map<std::pair<int, bool>, std::uint32_t> first_;  ///< word, by image and whether it is deep
-  std::uint32_t words_ = 0;                              ///< of all of them
-  std::unordered_map<std::string, int> known_;           ///< slots by their bits
-};
-
-static_assert(static_cast<int>(Wrap::Repeat) == WRAP_REPEAT && static_cast<int>(Wrap::Clamp) == WRAP_CLAMP &&
-              static_cast<int>(Wrap::Mirror) == WRAP_MIRROR);
-
-void copy3(float* out, const glm::vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
-
-constexpr bool isLinear(int encoding) { return encoding == device::LINEAR; }
-
-device::DeviceMaterial toDevice(const Material& m, TextureAtlas& atlas) {
-  device::DeviceMaterial d{};
-#define WHITTLE_VECTOR(name, size, ...) \
-  for (int k = 0; k < size; ++k) d.name[k] = m.name[k];
-#define WHITTLE_SCALAR(name, ...) d.name = m.name;
-#define WHITTLE_INDEX(slot, FEATURE, encoding, factor, OTHERS) \
-  d.slot = atlas.add(m.slot, isLinear(device::slot##Encoding));
-  WHITTLE_MATERIAL_FACTORS(WHITTLE_VECTOR, WHITTLE_SCALAR)
-  WHITTLE_TEXTURE_SLOTS(WHITTLE_INDEX)
-#undef WHITTLE_VECTOR
-#undef WHITTLE_SCALAR
-#undef WHITTLE_INDEX
-  if (!m.volume) copy3(d.sigma_a, glm::vec3(0.0F));
-  d.flags = (m.unlit ? MATERIAL_UNLIT : 0U) | (m.volume ? MATERIAL_VOLUME : 0U) |
-            (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0U) | (isMasked(m) ? MATERIAL_MASK : 0U) |
-            (blends(m) ? MATERIAL_BLEND : 0U);
-  return d;
-}
-
-std::uint32_t triangleFlags(const Material& m) {
-  return (isMasked(m) ? TRIANGLE_MASKED : 0U) | (filters(m) ? TRIANGLE_FILTERS : 0U) |
-         (blends(m) ? TRIANGLE_COATS : 0U) | (showsFrontOnly(m) ? TRIANGLE_ONE_SIDED : 0U);
-}
 
 /// False for corners on one line, by the differences that the kernels see; products of two floats are exact
 /// in double.
@@ -148,32 +36,50 @@ std::array<glm::vec3, 3> hittableCorners(const Scene& scene, std::uint32_t trian
   return hasArea(p0, p1, p2) ? std::array{p0, p1, p2} : std::array{p0, p0, p0};
 }
 
+constexpr std::size_t kTrianglesAtOnce = 1 << 16;
+
+void setSurface(device::DeviceTriangle& triangle, const SurfaceKind& surface) {
+  triangle.material = surface.material;
+  triangle.flags = surface.flags;
+}
+
 /// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
 /// They are made some at a time: all of them would be more than the tree.
-Buffer uploadTriangles(Compute& compute, const Scene& scene, const PrunedScene& pruned,
+Buffer uploadTriangles(Compute& compute, const Scene& scene, const std::vector<SurfaceKind>& surfaces,
                        const std::vector<std::uint32_t>& order) {
-  constexpr std::size_t kAtOnce = 1 << 16;
   const std::size_t all = order.size() + 1;
   Buffer buffer = compute.allocate("triangles", all * sizeof(device::DeviceTriangle));
-  std::vector<device::DeviceTriangle> out(std::min(kAtOnce, all));
+  std::vector<device::DeviceTriangle> out(std::min(kTrianglesAtOnce, all));
   for (std::size_t first = 0; first < all; first += out.size()) {
-    out.assign(std::min(kAtOnce, all - first), device::DeviceTriangle{});
+    out.assign(std::min(kTrianglesAtOnce, all - first), device::DeviceTriangle{});
     for (std::size_t i = 0; i < out.size(); ++i) {
       if (first + i == order.size()) {
         out[i].primitive = 0xffffffffU;
         continue;
       }
       const std::uint32_t triangle = order[first + i];
-      const std::uint32_t material = pruned.materialOf[scene.triangles[triangle].material];
       const std::array<glm::vec3, 3> corners = hittableCorners(scene, triangle);
       for (std::size_t k = 0; k < 3; ++k) copy3(out[i].v[k], corners[k]);
       out[i].primitive = triangle;
-      out[i].material = material;
-      out[i].flags = triangleFlags(pruned.materials[material]);
+      setSurface(out[i], surfaces[scene.triangles[triangle].material]);
     }
     compute.write(buffer, first * sizeof(device::DeviceTriangle), std::as_bytes(std::span(out)));
   }
   return buffer;
+}
+
+/// The same triangles with other surfaces: read back, changed and written, some at a time.
+void changeSurfaces(Compute& compute, const Scene& scene, const std::vector<SurfaceKind>& surfaces,
+                    const Buffer& triangles) {
+  const std::size_t all = triangles.bytes / sizeof(device::DeviceTriangle) - 1;  // but for the degenerate one
+  std::vector<device::DeviceTriangle> part(std::min(kTrianglesAtOnce, all));
+  for (std::size_t first = 0; first < all; first += part.size()) {
+    part.resize(std::min(kTrianglesAtOnce, all - first));
+    const std::size_t at = first * sizeof(device::DeviceTriangle);
+    compute.read(triangles, at, part.size() * sizeof(device::DeviceTriangle), part.data());
+    for (device::DeviceTriangle& t : part) setSurface(t, surfaces[scene.triangles[t.primitive].material]);
+    compute.write(triangles, at, std::as_bytes(std::span(part)));
+  }
 }
 
 std::vector<TreeNode> withSentinels(const TriTree& tree) {
@@ -193,28 +99,6 @@ std::vector<float> srgbTable() {
         static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
   }
   return table;
-}
-
-std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const PrunedScene& pruned) {
-  std::vector<device::DeviceLight> out;
-  const auto versine = [](double angle) {
-    const double s = std::sin(0.5 * angle);
-    return static_cast<float>(2.0 * s * s);
-  };
-  for (const std::uint32_t i : pruned.lights) {
-    const Light& l = scene.lights[i];
-    device::DeviceLight d{};
-    copy3(d.intensity, l.intensity);
-    copy3(d.position, l.position);
-    copy3(d.direction, l.direction);
-    d.kind = static_cast<std::uint32_t>(l.kind);
-    d.range = l.range;
-    d.castsShadows = l.castsShadows;
-    d.versineOuter = versine(l.outerConeAngle);
-    d.versineInner = versine(l.innerConeAngle);
-    out.push_back(d);
-  }
-  return out;
 }
 
 /// An attribute of the vertices that are used, in their order on the device. One that is kept though the
@@ -308,7 +192,8 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
           compute.write(d.leaves, first * sizeof(float), std::as_bytes(part));
         });
   }
-  d.triangles = uploadTriangles(compute, scene, pruned, tree.order);
+  d.tables = tablesOf(scene, pruned);
+  d.triangles = uploadTriangles(compute, scene, d.tables.surfaces, tree.order);
   const bool interpolates = features.has(Feature::VERTEX_NORMALS) || features.has(Feature::TEXTURES) ||
                             features.has(Feature::VERTEX_COLORS);
   if (interpolates) {
@@ -327,22 +212,38 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   if (consumed) freeArray(consumed->uv1);
   if (features.has(Feature::VERTEX_COLORS))
     d.colors = scene.colors.empty() ? Buffer{} : uploadVertices(compute, "colors", scene.colors, pruned);
-  TextureAtlas atlas(scene, pruned);
-  std::vector<device::DeviceMaterial> materials;
-  for (const auto& m : pruned.materials) materials.push_back(toDevice(m, atlas));
-  if (materials.empty()) materials.push_back(toDevice(Material{}, atlas));
-  d.materials = compute.upload("materials", materials);
+  d.materials = compute.upload("materials", d.tables.materials);
   if (features.has(Feature::TEXTURES)) {
-    d.textures = compute.upload("textures", atlas.slots);
-    d.texels = atlas.upload(compute, consumed);
+    d.textures = compute.upload("textures", d.tables.textures);
+    d.texels = uploadTexels(compute, scene, d.tables.texels, consumed);
     d.linearFromSrgb = compute.upload("linearFromSrgb", srgbTable());
   }
-  const auto lights = lightsToDevice(scene, pruned);
-  d.lightCount = static_cast<std::uint32_t>(lights.size());
-  d.lights = compute.upload("lights", lights);
+  d.lightCount = static_cast<std::uint32_t>(d.tables.lights.size());
+  d.lights = compute.upload("lights", d.tables.lights);
   if (features.has(Feature::BACKGROUND_MAP))
     d.backgroundMap = compute.upload("background", scene.background.map);
   return d;
+}
+
+TableChanges takeOver(Compute& compute, const Scene& scene, DeviceTables tables, DeviceScene& d) {
+  assert(tables.texels == d.tables.texels);
+  const auto take = [&](const char* name, auto DeviceTables::*table, Buffer DeviceScene::*buffer) {
+    if (haveSameBits(tables.*table, d.tables.*table)) return false;
+    d.*buffer = compute.upload(name, tables.*table);
+    d.tables.*table = std::move(tables.*table);
+    return true;
+  };
+  TableChanges changes;
+  changes.lights = take("lights", &DeviceTables::lights, &DeviceScene::lights);
+  changes.materials = take("materials", &DeviceTables::materials, &DeviceScene::materials);
+  changes.textures = take("textures", &DeviceTables::textures, &DeviceScene::textures);
+  changes.triangles = tables.surfaces != d.tables.surfaces;
+  if (changes.triangles) {
+    changeSurfaces(compute, scene, tables.surfaces, d.triangles);
+    d.tables.surfaces = std::move(tables.surfaces);
+  }
+  d.lightCount = static_cast<std::uint32_t>(d.tables.lights.size());
+  return changes;
 }
 
 }  // namespace whittle

@@ -11,6 +11,7 @@
 #include "report/stats.h"
 #include "scene/scene.h"
 #include "wavefront/arguments_macro.h"
+#include "wavefront/device_tables.h"
 
 namespace whittle {
 
@@ -19,6 +20,7 @@ struct DeviceScene {
       texels, linearFromSrgb, lights, backgroundMap, bvh8Nodes, leaves;
   std::uint32_t triangleCount = 0;  ///< not counting the degenerate sentinel at the end
   std::uint32_t lightCount = 0;
+  DeviceTables tables;  ///< what the buffers of the same names hold, `triangles` and `texels` the rest
 
   /// SCENE_PARAMS of kernels/lib/scene.cl.
   WHITTLE_ARGUMENTS(nodes, triangles, corners, indices32, normals, tangents, uv0, uv1, colors, materials,
@@ -40,6 +42,16 @@ inline constexpr std::uint64_t kSceneBufferFeatures =
 /// coordinates and texels: they are let go as soon as the device has them.
 DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, TriTree tree,
                         const SceneFeatures& features, Scene* consumed = nullptr);
+
+/// Which buffers an edit reached.
+struct TableChanges {
+  bool lights = false, materials = false, textures = false, triangles = false;
+  bool any() const { return lights || materials || textures || triangles; }
+};
+/// After an edit of lights or materials that reads the same texels: writes those tables that are others, and
+/// what the triangles say of their materials. Tree, vertices and texels stay.
+TableChanges takeOver(Compute& compute, const Scene& scene, DeviceTables tables, DeviceScene& onDevice);
+
 /// Of the whole scene, for features that nothing analysed.
 inline DeviceScene uploadScene(Compute& compute, const Scene& scene, TriTree tree,
                                const SceneFeatures& features) {

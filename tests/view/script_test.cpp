@@ -26,6 +26,7 @@ class Recorder : public view::Stage {
   void restore() override { log += "restore; "; }
   void drop(const std::string& file) override { log += "drop " + file + "; "; }
   void screenshot(const std::filesystem::path& file) override { log += "shot " + file.string() + "; "; }
+  void saveScene(const std::filesystem::path& file) override { log += "copy " + file.string() + "; "; }
   std::string set(const std::string& id, const std::string& text) override {
     log += "set " + id + " " + text + "; ";
     return id == "bad" ? "--bad: no" : "";

@@ -70,6 +70,69 @@ void choice(ViewModel& model, PanelState& state, const Control& c, const std::st
   tip(c.tip);
 }
 
+void slider(ViewModel& model, PanelState& state, const Control& c, const std::string& value) {
+  float share = std::strtof(value.c_str(), nullptr);
+  if (ImGui::SliderFloat("##value", &share, 0, 1, "%.3g", ImGuiSliderFlags_AlwaysClamp))
+    apply(model, state, c, fmt::format("{:.4g}", share));
+  tip(c.tip);
+}
+
+/// A drag changes it by parts of itself; a double click takes a number.
+void amount(ViewModel& model, PanelState& state, const Control& c, const std::string& value) {
+  float number = std::strtof(value.c_str(), nullptr);
+  const float speed = std::max(0.01F * std::abs(number), 1e-3F);
+  if (ImGui::DragFloat("##value", &number, speed, 0, 0, "%.5g"))
+    apply(model, state, c, fmt::format("{:.6g}", number));
+  tip(c.tip);
+}
+
+void colorField(ViewModel& model, PanelState& state, const Control& c, const std::string& value) {
+  std::array<float, 3> rgb{};
+  std::istringstream in(value);
+  for (float& channel : rgb) in >> channel, in.ignore(1, ',');
+  constexpr auto kFlags = ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float;
+  if (ImGui::ColorEdit3("##value", rgb.data(), kFlags))
+    apply(model, state, c, fmt::format("{:.4g},{:.4g},{:.4g}", rgb[0], rgb[1], rgb[2]));
+  tip(c.tip);
+  ImGui::SameLine();
+  ImGui::TextDisabled("%.2g %.2g %.2g", static_cast<double>(rgb[0]), static_cast<double>(rgb[1]),
+                      static_cast<double>(rgb[2]));
+}
+
+constexpr const char* kKeys[][2] = {
+    {"left drag", "orbit about what is under the mouse"},
+    {"middle drag, Shift + left", "pan"},
+    {"click", "the rays of a pixel: a list, and lines over the picture"},
+    {"wheel", "zoom towards what is under the mouse"},
+    {"right drag", "look around"},
+    {"W A S D, Q E", "fly; down, up"},
+    {"R, Home", "the camera of the file"},
+    {"F", "frame all"},
+    {"1  3  7", "from the front, from the right, from above"},
+    {"5", "orthographic, and back"},
+    {"Ctrl+C, Ctrl+V", "camera as command-line options"},
+    {"X", "lights and materials; drag a light's handle"},
+    {"Ctrl+Z", "undo the last edit of them"},
+    {"F12, Ctrl+S", "save .png and .exr"},
+    {"Ctrl+R", "read the file again"},
+    {"Esc", "stop refining"},
+    {"Tab", "panels away, and back"},
+    {"L", "light, dark"},
+    {"H, ?", "this help"},
+    {"Ctrl+Q", "quit"},
+};
+
+}  // namespace
+
+void tip(const std::string& text) {
+  if (text.empty() || !ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
 void controlRow(ViewModel& model, PanelState& state, const Control& c) {
   const std::string value = model.value(c.id);
   ImGui::PushID(c.id.c_str());
@@ -92,6 +155,15 @@ void controlRow(ViewModel& model, PanelState& state, const Control& c) {
     case Control::Kind::Choice:
       choice(model, state, c, value);
       break;
+    case Control::Kind::Share:
+      slider(model, state, c, value);
+      break;
+    case Control::Kind::Amount:
+      amount(model, state, c, value);
+      break;
+    case Control::Kind::Color:
+      colorField(model, state, c, value);
+      break;
     case Control::Kind::Real:
     case Control::Kind::Text:
       textField(model, state, c, value);
@@ -110,38 +182,6 @@ void controlRow(ViewModel& model, PanelState& state, const Control& c) {
   }
   if (!c.remark.empty()) ImGui::TextDisabled("%s", c.remark.c_str());
   ImGui::PopID();
-}
-
-constexpr const char* kKeys[][2] = {
-    {"left drag", "orbit about what is under the mouse"},
-    {"middle drag, Shift + left", "pan"},
-    {"click", "the rays of a pixel: a list, and lines over the picture"},
-    {"wheel", "zoom towards what is under the mouse"},
-    {"right drag", "look around"},
-    {"W A S D, Q E", "fly; down, up"},
-    {"R, Home", "the camera of the file"},
-    {"F", "frame all"},
-    {"1  3  7", "from the front, from the right, from above"},
-    {"5", "orthographic, and back"},
-    {"Ctrl+C, Ctrl+V", "camera as command-line options"},
-    {"F12, Ctrl+S", "save .png and .exr"},
-    {"Ctrl+R", "read the file again"},
-    {"Esc", "stop refining"},
-    {"Tab", "panels away, and back"},
-    {"L", "light, dark"},
-    {"H, ?", "this help"},
-    {"Ctrl+Q", "quit"},
-};
-
-}  // namespace
-
-void tip(const std::string& text) {
-  if (text.empty() || !ImGui::IsItemHovered()) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
 }
 
 void settingsPanel(ViewModel& model, PanelState& state) {

@@ -15,6 +15,7 @@ struct PanelState {
   std::string fileText;                         ///< of a file to open
   bool showsHelp = false;
   bool showsPanels = true;
+  bool showsEdit = false;  ///< lights and materials, and the lights' handles
   bool isLight = false;
   bool restyles = false;  ///< the style was changed
 };
@@ -25,6 +26,9 @@ void tip(const std::string& text);
 /// Into the current ImGui window.
 void filePanel(ViewModel& model, PanelState& state);
 void settingsPanel(ViewModel& model, PanelState& state);
+/// One control: label, widget, the way back to its default.
+void controlRow(ViewModel& model, PanelState& state, const Control& c);
+void editPanel(ViewModel& model, PanelState& state);
 void statisticsPanel(const ViewModel& model);
 void cameraPanel(ViewModel& model);
 void messageLine(const ViewModel& model);

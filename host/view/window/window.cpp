@@ -171,6 +171,7 @@ void Window::drawPanels(float width, float height) {
   drawPicture();
   drawScale();
   drawRays(hoveredRay_);
+  drawHandles();
   constexpr auto kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                           ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoBringToFrontOnFocus;
   const auto panel = [&](const char* name, float x, float y, float w, float h, const auto& content) {
@@ -183,6 +184,7 @@ void Window::drawPanels(float width, float height) {
     panel("settings", 0, 0, left, height - line, [&] {
       filePanel(model_, panels_);
       cameraPanel(model_);
+      editPanel(model_, panels_);
       settingsPanel(model_, panels_);
     });
     hoveredRay_ = -1;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -43,6 +44,7 @@ class Window : public Stage {
   void drop(const std::string& file) override;
   void screenshot(const std::filesystem::path& file) override { pendingShot_ = file; }
   std::string set(const std::string& id, const std::string& text) override { return model_.set(id, text); }
+  void saveScene(const std::filesystem::path& file) override { model_.edits().save(file); }
   bool hasPicture() const override { return model_.hasPicture(); }
   bool isFinished() const override { return model_.isFinished(); }
   std::string stateJson() const override;
@@ -56,6 +58,9 @@ class Window : public Stage {
   void drawPicture();
   void drawScale();
   void drawRays(int emphasised);
+  void drawHandles();
+  /// A handle that the mouse has; false: it has none.
+  bool dragHandle(double right, double down);
   void upload();
   void writeShot();
   void moveCamera();
@@ -68,6 +73,7 @@ class Window : public Stage {
   };
   Rect pictureRect(float left, float top, float width, float height) const;
   ImVec2 inPicture(const ImVec2& pointer) const;  ///< [0, 1]²
+  ImVec2 inWindow(double x, double y) const;      ///< from there
   bool isBusy() const;
   bool isMinimised() const;
 
@@ -85,8 +91,9 @@ class Window : public Stage {
   int frames_ = 0;
   double drawnAt_ = 0;
   bool wasMoving_ = false;
-  ImVec2 pressedAt_{-1, -1};  ///< where the left button went down on the picture
-  int hoveredRay_ = -1;       ///< in the list of rays
+  ImVec2 pressedAt_{-1, -1};              ///< where the left button went down on the picture
+  int hoveredRay_ = -1;                   ///< in the list of rays
+  std::optional<std::size_t> heldLight_;  ///< whose handle the mouse has
   std::chrono::steady_clock::time_point movedAt_{};
   // What a script does with the mouse.
   bool isScripted_ = false;

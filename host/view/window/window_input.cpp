@@ -58,10 +58,12 @@ void Window::button(const std::string& name, bool isDown) {
 void Window::moveCamera() {
   const ImGuiIO& io = ImGui::GetIO();
   bool moves = false;
+  model_.edits().setDragging(ImGui::IsMouseDown(0));
   if (!io.WantCaptureMouse && picture_.height > 0) {
     const double dx = static_cast<double>(io.MouseDelta.x / picture_.height),
                  dy = static_cast<double>(io.MouseDelta.y / picture_.height);
     const ImVec2 at = inPicture(io.MousePos);
+    if (dragHandle(dx, dy)) return;
     for (int b = 0; b < 3; ++b)
       if (ImGui::IsMouseClicked(b)) model_.holdPoint(static_cast<double>(at.x), static_cast<double>(at.y));
     if (ImGui::IsMouseClicked(0)) pressedAt_ = io.MousePos;
@@ -113,6 +115,7 @@ void Window::shortcuts(int key, bool ctrl) {
   if (ctrl) {
     if (key == 'Q') quit();
     if (key == 'R') model_.reload();
+    if (key == 'Z') model_.edits().undo();
     if (key == 'S') model_.save();
     if (key == 'C') glfwSetClipboardString(window_, model_.cameraText().c_str());
     if (key == 'V') {
@@ -140,6 +143,9 @@ void Window::shortcuts(int key, bool ctrl) {
       break;
     case '5':
       model_.switchOrthographic();
+      break;
+    case 'X':
+      panels_.showsEdit = !panels_.showsEdit;
       break;
     case 'L':
       panels_.isLight = !panels_.isLight, panels_.restyles = true;

@@ -43,6 +43,11 @@ ImVec2 Window::inPicture(const ImVec2& at) const {
   return {(at.x - picture_.x) / picture_.width, (at.y - picture_.y) / picture_.height};
 }
 
+ImVec2 Window::inWindow(double x, double y) const {
+  return {picture_.x + static_cast<float>(x) * picture_.width,
+          picture_.y + static_cast<float>(y) * picture_.height};
+}
+
 void Window::drawPicture() {
   upload();
   ImDrawList* const draw = ImGui::GetBackgroundDrawList();
@@ -134,10 +139,7 @@ void Window::drawRays(int emphasised) {
   if (!e) return;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.PushClipRect({picture_.x, picture_.y}, {picture_.x + picture_.width, picture_.y + picture_.height});
-  const auto at = [&](double x, double y) {
-    return ImVec2(picture_.x + static_cast<float>(x) * picture_.width,
-                  picture_.y + static_cast<float>(y) * picture_.height);
-  };
+  const auto at = [&](double x, double y) { return inWindow(x, y); };
   for (const DrawnRay& d : e->drawn) {
     const bool isOn = static_cast<int>(d.ray) == emphasised;
     drawStroke(draw, at(d.x0, d.y0), at(d.x1, d.y1), strokeOf(d.line), isOn ? 2.0F : 0.0F);

@@ -1,0 +1,285 @@
+// See edited_copy.h. Lights: KHR_lights_punctual; materials: glTF 2.0, 3.9, and the extensions' own texts.
+#include "gltf/edited_copy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "gltf/container.h"
+#include "gltf/edited_container.h"
+#include "gltf/nodes.h"
+#include "scene/machine_memory.h"
+#include "scene/whole_file.h"
+
+namespace whittle {
+namespace gltf {
+namespace {
+
+constexpr const char* kLights = "KHR_lights_punctual";
+
+/// Keys keep their order.
+using Ordered = nlohmann::ordered_json;
+
+/// The number with the fewest digits that is read as this float.
+double shortest(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
+
+Ordered listOf(const auto& v) {
+  Ordered list = Ordered::array();
+  for (int i = 0; i < v.length(); ++i) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(v[i])>, float>)
+      list.push_back(shortest(v[i]));
+    else
+      list.push_back(v[i]);
+  }
+  return list;
+}
+
+/// The object under `key`; what is none gives way.
+Ordered& objectIn(Ordered& parent, const char* key) {
+  Ordered& child = parent[key];
+  if (!child.is_object()) child = Ordered::object();
+  return child;
+}
+Ordered& listIn(Ordered& parent, const char* key) {
+  Ordered& child = parent[key];
+  if (!child.is_array()) child = Ordered::array();
+  return child;
+}
+
+class Editor {
+ public:
+  Editor(Document& document, const EditedScene& scene, Ordered& root)
+      : document_(document),
+        scene_(scene),
+        root_(root),
+        hierarchy_(readHierarchy(document, scene.sceneName, *document.notices)) {}
+
+  /// How many lights and materials differ.
+  std::size_t apply() {
+    std::size_t edits = 0;
+    bool addsOwn = false;
+    for (std::size_t i = 0; i < scene_.after.lights.size(); ++i) {
+      const Light &before = scene_.before.lights[i], &after = scene_.after.lights[i];
+      if (!differs(before, after)) continue;
+      ++edits;
+      if (after.node < 0)
+        addsOwn = true;
+      else
+        editLight(before, after);
+    }
+    if (addsOwn)
+      for (const Light& light : scene_.after.lights)
+        if (light.node < 0) addLight(light);
+    for (std::size_t i = 0; i < scene_.after.materials.size(); ++i) {
+      const Material &before = scene_.before.materials[i], &after = scene_.after.materials[i];
+      if (!differs(before, after)) continue;
+      ++edits;
+      editMaterial(before, after, materialOf(after.index));
+    }
+    return edits;
+  }
+
+ private:
+  [[noreturn]] void failChanged() const { document_.fail("has changed since it was read"); }
+
+  void use(const char* name) {
+    Ordered& used = listIn(root_, "extensionsUsed");
+    if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+  }
+
+  Ordered& extensionOf(Ordered& thing, const char* name) {
+    use(name);
+    return objectIn(objectIn(thing, "extensions"), name);
+  }
+
+  Ordered& lights() { return listIn(objectIn(objectIn(root_, "extensions"), kLights), "lights"); }
+
+  void editLight(const Light& before, const Light& after) {
+    const auto node = at(after.node);
+    if (node >= document_.nodes.size() || document_.nodes[node].light < 0) failChanged();
+    if (before.intensity != after.intensity) writeIntensity(after, ownLight(node));
+    if (before.innerConeAngle != after.innerConeAngle || before.outerConeAngle != after.outerConeAngle)
+      writeCone(after, ownLight(node));
+    if (before.position != after.position) moveLight(node, after);
+  }
+
+  /// The light of this node alone: one that several nodes have is copied.
+  Ordered& ownLight(std::size_t node) {
+    int& index = document_.nodes[node].light;
+    const auto users = std::count_if(document_.nodes.begin(), document_.nodes.end(),
+                                     [&](const Node& n) { return n.light == index; });
+    if (users > 1) {
+      Ordered copy = lights()[at(index)];
+      index = static_cast<int>(lights().size());
+      lights().push_back(std::move(copy));
+      root_["nodes"][node]["extensions"][kLights]["light"] = index;
+    }
+    return lights()[at(index)];
+  }
+
+  /// The loader multiplies the two in double precision and rounds once: to the same floats.
+  static void writeIntensity(const Light& light, Ordered& out) {
+    const double intensity = shortest(std::max({light.intensity.x, light.intensity.y, light.intensity.z}));
+    out["intensity"] = intensity;
+    if (intensity > 0.0) out["color"] = listOf(glm::dvec3(light.intensity) / intensity);
+  }
+
+  static void writeCone(const Light& light, Ordered& out) {
+    Ordered& spot = objectIn(out, "spot");
+    spot["innerConeAngle"] = shortest(light.innerConeAngle);
+    spot["outerConeAngle"] = shortest(light.outerConeAngle);
+  }
+
+  glm::dvec3 placeInFile(const Light& light) const {
+    const glm::vec3& p = light.position;
+    return glm::dvec3(shortest(p.x), shortest(p.y), shortest(p.z)) + scene_.origin;
+  }
+
+  /// Nothing but the light would move with the node.
+  bool isAlone(std::size_t node) const {
+    const Node& n = document_.nodes[node];
+    const auto& skins = document_.model.skins;
+    const bool isJoint = std::any_of(skins.begin(), skins.end(), [&](const tinygltf::Skin& skin) {
+      return std::find(skin.joints.begin(), skin.joints.end(), static_cast<int>(node)) != skin.joints.end();
+    });
+    return n.mesh < 0 && n.camera < 0 && n.children.empty() && !isJoint;
+  }
+
+  glm::dmat4 parentToWorld(std::size_t node) const {
+    for (std::size_t i = 0; i < document_.nodes.size(); ++i) {
+      const auto& children = document_.nodes[i].children;
+      if (std::find(children.begin(), children.end(), static_cast<int>(node)) != children.end())
+        return hierarchy_.toWorld[i];
+    }
+    return glm::dmat4(1.0);
+  }
+
+  /// Moves its node, or where others would go along, hangs it on a new first child: lights are in the order
+  /// of the nodes, depth first.
+  void moveLight(std::size_t node, const Light& light) {
+    const bool alone = isAlone(node);
+    const glm::dmat4 frame = alone ? parentToWorld(node) : hierarchy_.toWorld[node];
+    const glm::dvec4 local = glm::inverse(frame) * glm::dvec4(placeInFile(light), 1.0);
+    const glm::dvec3 place(local);
+    if (!std::isfinite(place.x + place.y + place.z))
+      document_.fail(fmt::format("{} cannot be moved: it lies below a scale of 0",
+                                 nodeLabel(document_, static_cast<int>(node))));
+    Ordered& json = root_["nodes"][node];
+    if (!alone) return moveToChild(node, place);
+    if (Ordered& matrix = json["matrix"]; matrix.is_array() && matrix.size() == 16) {
+      for (std::size_t i = 0; i < 3; ++i) matrix[12 + i] = place[static_cast<int>(i)];
+    } else {
+      json.erase("matrix");
+      json["translation"] = listOf(place);
+    }
+  }
+
+  void moveToChild(std::size_t node, const glm::dvec3& place) {
+    Ordered child = Ordered::object();
+    if (!document_.nodes[node].name.empty()) child["name"] = document_.nodes[node].name;
+    child["translation"] = listOf(place);
+    child["extensions"][kLights]["light"] = document_.nodes[node].light;
+    if (!document_.nodes[node].castsShadows()) child["extras"]["castsShadows"] = false;
+    const std::size_t index = root_["nodes"].size();
+    Ordered& json = root_["nodes"][node];
+    json["extensions"].erase(kLights);
+    if (json["extensions"].empty()) json.erase("extensions");
+    Ordered& children = listIn(json, "children");
+    children.insert(children.begin(), index);
+    root_["nodes"].push_back(std::move(child));
+  }
+
+  /// A node of its own among the scene's roots, with the light's direction as its -Z.
+  void addLight(const Light& light) {
+    use(kLights);
+    const LightType& type = typeOf(light.kind);
+    Ordered definition{{"name", light.name}, {"type", type.word}};
+    writeIntensity(light, definition);
+    if (type.hasCone) writeCone(light, definition);
+    if (!light.castsShadows) definition["extras"]["castsShadows"] = false;
+    const glm::dvec3 z = -glm::normalize(glm::dvec3(light.direction));
+    const glm::dvec3 aside = std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 x = glm::normalize(glm::cross(aside, z)), y = glm::cross(z, x);
+    const glm::dvec3 place = type.isPlaced ? placeInFile(light) : glm::dvec3(0.0);
+    Ordered matrix = Ordered::array();
+    for (const glm::dvec4& column :
+         {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(place, 1)})
+      for (int i = 0; i < 4; ++i) matrix.push_back(column[i]);
+    Ordered node{{"name", light.name}, {"matrix", matrix}};
+    node["extensions"][kLights]["light"] = lights().size();
+    lights().push_back(std::move(definition));
+    Ordered& nodes = listIn(root_, "nodes");
+    if (hierarchy_.scene >= 0) listIn(root_["scenes"][at(hierarchy_.scene)], "nodes").push_back(nodes.size());
+    nodes.push_back(std::move(node));
+  }
+
+  /// -1: the default one becomes a real one, of all primitives that have none.
+  Ordered& materialOf(int index) {
+    Ordered& materials = listIn(root_, "materials");
+    if (index >= 0) {
+      if (at(index) >= materials.size()) failChanged();
+      return materials[at(index)];
+    }
+    for (Ordered& mesh : listIn(root_, "meshes"))
+      for (Ordered& primitive : mesh["primitives"])
+        if (!primitive.contains("material")) primitive["material"] = materials.size();
+    materials.push_back(Ordered{{"name", "default"}});
+    return materials.back();
+  }
+
+  void editMaterial(const Material& before, const Material& after, Ordered& json) {
+    const auto pbr = [&]() -> Ordered& { return objectIn(json, "pbrMetallicRoughness"); };
+    if (before.baseColor != after.baseColor) pbr()["baseColorFactor"] = listOf(after.baseColor);
+    if (before.metallic != after.metallic) pbr()["metallicFactor"] = shortest(after.metallic);
+    if (before.roughness != after.roughness) pbr()["roughnessFactor"] = shortest(after.roughness);
+    if (before.transmission != after.transmission)
+      extensionOf(json, "KHR_materials_transmission")["transmissionFactor"] = shortest(after.transmission);
+    if (before.ior != after.ior) extensionOf(json, "KHR_materials_ior")["ior"] = shortest(after.ior);
+    if (before.emission != after.emission) writeEmission(after.emission, json);
+  }
+
+  /// Factors are at most 1; a power of two as strength changes no bit of their product.
+  void writeEmission(const glm::vec3& emission, Ordered& json) {
+    const float most = std::max({emission.x, emission.y, emission.z});
+    const float strength = most > 1.0F ? std::exp2(std::ceil(std::log2(most))) : 1.0F;
+    json["emissiveFactor"] = listOf(emission / strength);
+    const auto extensions = json.find("extensions");
+    const bool hasStrength = extensions != json.end() && extensions->is_object() &&
+                             extensions->contains("KHR_materials_emissive_strength");
+    if (strength != 1.0F || hasStrength)
+      extensionOf(json, "KHR_materials_emissive_strength")["emissiveStrength"] = shortest(strength);
+  }
+
+  Document& document_;
+  const EditedScene& scene_;
+  Ordered& root_;
+  Hierarchy hierarchy_;
+};
+
+}  // namespace
+}  // namespace gltf
+
+std::filesystem::path writeEditedCopy(const EditedScene& scene, const std::filesystem::path& copy) {
+  gltf::Document document;
+  MemoryBudget budget(memoryLimitOfMachine());
+  document.budget = &budget;
+  Notices unheard;
+  gltf::openDocument(document, scene.file, unheard);
+  try {
+    auto root = nlohmann::ordered_json::parse(gltf::readText(document));
+    if (gltf::Editor(document, scene, root).apply() == 0)
+      throw InputError("nothing is edited that a file can hold");
+    const std::filesystem::path name = gltf::freeName(document, copy);
+    gltf::moveUris(document, name.parent_path(), root);
+    writeWholeFile(name, gltf::containerWith(document, root.dump()));
+    return name;
+  } catch (const gltf::Json::exception& e) {
+    document.fail(e.what());
+  }
+}
+
+}  // namespace whittle

@@ -1,0 +1,173 @@
+// See device_tables.h.
+#include "wavefront/device_tables.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "scene/free_array.h"
+#include "scene/material_predicates.h"
+
+namespace whittle {
+namespace {
+
+static_assert(sizeof(device::DeviceLight) == 64);
+static_assert(sizeof(device::DeviceTexture) == 52);
+
+/// Texture slots and the places of the texels they read, shared where two slots are the same or read the same
+/// image.
+class TextureAtlas {
+ public:
+  TextureAtlas(const Scene& scene, const PrunedScene& pruned) : scene_(scene), pruned_(pruned) {}
+
+  /// Index of the slot on the device, -1 for an empty one.
+  int add(const TextureSlot& slot, bool isLinear) {
+    if (!slot.used()) return -1;
+    const Image& image = scene_.images[pruned_.images[static_cast<std::size_t>(slot.image)]];
+    const bool isDeep = readsDeepTexels(image, isLinear);
+    device::DeviceTexture t{};
+    std::copy(slot.transform.begin(), slot.transform.end(), t.transform);
+    t.firstTexel = firstTexel(slot.image, image, isDeep);
+    t.width = image.width;
+    t.height = image.height;
+    t.wrapS = static_cast<std::uint32_t>(slot.wrapS);
+    t.wrapT = static_cast<std::uint32_t>(slot.wrapT);
+    t.flags = (slot.filter == Filter::Nearest ? TEXTURE_NEAREST : 0U) | (isDeep ? TEXTURE_DEEP : 0U);
+    t.uvSet = static_cast<std::uint32_t>(slot.uvSet);
+    return indexOf(t);
+  }
+
+  std::vector<TexelRange> ranges() const {
+    std::vector<TexelRange> ranges;
+    for (const auto& [key, word] : first_)
+      ranges.push_back({pruned_.images[static_cast<std::size_t>(key.first)], key.second, word});
+    return ranges;
+  }
+
+  std::vector<device::DeviceTexture> slots;
+
+ private:
+  int indexOf(const device::DeviceTexture& t) {
+    const std::string bits(reinterpret_cast<const char*>(&t), sizeof(t));
+    const auto [at, isNew] = known_.try_emplace(bits, static_cast<int>(slots.size()));
+    if (!isNew && pruned_.sharesSlots) return at->second;
+    slots.push_back(t);
+    return static_cast<int>(slots.size()) - 1;
+  }
+
+  /// An image that colours and other values read is there in both forms.
+  std::uint32_t firstTexel(int index, const Image& image, bool isDeep) {
+    const auto [at, isNew] = first_.try_emplace({index, isDeep}, words_);
+    if (isNew)
+      words_ += static_cast<std::uint32_t>(isDeep ? image.deepTexels.size() / 2 : image.texels.size() / 4);
+    return at->second;
+  }
+
+  const Scene& scene_;
+  const PrunedScene& pruned_;
+  std::map<std::pair<int, bool>, std::uint32_t> first_;  ///< word, by image and whether it is deep
+  std::uint32_t words_ = 0;                              ///< of all of them
+  std::unordered_map<std::string, int> known_;           ///< slots by their bits
+};
+
+static_assert(static_cast<int>(Wrap::Repeat) == WRAP_REPEAT && static_cast<int>(Wrap::Clamp) == WRAP_CLAMP &&
+              static_cast<int>(Wrap::Mirror) == WRAP_MIRROR);
+
+constexpr bool isLinear(int encoding) { return encoding == device::LINEAR; }
+
+device::DeviceMaterial toDevice(const Material& m, TextureAtlas& atlas) {
+  device::DeviceMaterial d{};
+#define WHITTLE_VECTOR(name, size, ...) \
+  for (int k = 0; k < size; ++k) d.name[k] = m.name[k];
+#define WHITTLE_SCALAR(name, ...) d.name = m.name;
+#define WHITTLE_INDEX(slot, FEATURE, encoding, factor, OTHERS) \
+  d.slot = atlas.add(m.slot, isLinear(device::slot##Encoding));
+  WHITTLE_MATERIAL_FACTORS(WHITTLE_VECTOR, WHITTLE_SCALAR)
+  WHITTLE_TEXTURE_SLOTS(WHITTLE_INDEX)
+#undef WHITTLE_VECTOR
+#undef WHITTLE_SCALAR
+#undef WHITTLE_INDEX
+  if (!m.volume) copy3(d.sigma_a, glm::vec3(0.0F));
+  d.flags = (m.unlit ? MATERIAL_UNLIT : 0U) | (m.volume ? MATERIAL_VOLUME : 0U) |
+            (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0U) | (isMasked(m) ? MATERIAL_MASK : 0U) |
+            (blends(m) ? MATERIAL_BLEND : 0U);
+  return d;
+}
+
+std::uint32_t triangleFlags(const Material& m) {
+  return (isMasked(m) ? TRIANGLE_MASKED : 0U) | (filters(m) ? TRIANGLE_FILTERS : 0U) |
+         (blends(m) ? TRIANGLE_COATS : 0U) | (showsFrontOnly(m) ? TRIANGLE_ONE_SIDED : 0U);
+}
+
+std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const PrunedScene& pruned) {
+  std::vector<device::DeviceLight> out;
+  const auto versine = [](double angle) {
+    const double s = std::sin(0.5 * angle);
+    return static_cast<float>(2.0 * s * s);
+  };
+  for (const std::uint32_t i : pruned.lights) {
+    const Light& l = scene.lights[i];
+    device::DeviceLight d{};
+    copy3(d.intensity, l.intensity);
+    copy3(d.position, l.position);
+    copy3(d.direction, l.direction);
+    d.kind = static_cast<std::uint32_t>(l.kind);
+    d.range = l.range;
+    d.castsShadows = l.castsShadows;
+    d.versineOuter = versine(l.outerConeAngle);
+    d.versineInner = versine(l.innerConeAngle);
+    out.push_back(d);
+  }
+  return out;
+}
+
+std::vector<SurfaceKind> surfacesOf(const PrunedScene& pruned) {
+  std::vector<SurfaceKind> surfaces;
+  surfaces.reserve(pruned.materialOf.size());
+  for (const std::uint32_t m : pruned.materialOf)
+    surfaces.push_back(m == kNotUsed ? SurfaceKind{} : SurfaceKind{m, triangleFlags(pruned.materials[m])});
+  return surfaces;
+}
+
+}  // namespace
+
+DeviceTables tablesOf(const Scene& scene, const PrunedScene& pruned) {
+  DeviceTables tables;
+  TextureAtlas atlas(scene, pruned);
+  for (const Material& m : pruned.materials) tables.materials.push_back(toDevice(m, atlas));
+  if (tables.materials.empty()) tables.materials.push_back(toDevice(Material{}, atlas));
+  tables.texels = atlas.ranges();
+  tables.textures = std::move(atlas.slots);
+  tables.lights = lightsToDevice(scene, pruned);
+  tables.surfaces = surfacesOf(pruned);
+  return tables;
+}
+
+Buffer uploadTexels(Compute& compute, const Scene& scene, const std::vector<TexelRange>& ranges,
+                    Scene* consumed) {
+  static_assert(std::endian::native == std::endian::little);
+  const auto bytesOf = [&](const TexelRange& r) {
+    const Image& image = scene.images[r.image];
+    return r.isDeep ? std::as_bytes(std::span(image.deepTexels)) : std::as_bytes(std::span(image.texels));
+  };
+  std::size_t all = 0;
+  for (const TexelRange& r : ranges) all = std::max(all, std::size_t{r.first} * 4 + bytesOf(r).size());
+  Buffer buffer = compute.allocate("texels", all);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const TexelRange& r = ranges[i];
+    compute.write(buffer, std::size_t{r.first} * 4, bytesOf(r));
+    const bool isLast = i + 1 == ranges.size() || ranges[i + 1].image != r.image;
+    if (!isLast || !consumed) continue;
+    Image& taken = consumed->images[r.image];
+    freeArray(taken.texels);
+    freeArray(taken.deepTexels);
+  }
+  return buffer;
+}
+
+}  // namespace whittle

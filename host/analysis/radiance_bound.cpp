@@ -138,7 +138,7 @@ std::vector<Surface> surfacesOf(const Scene& scene, const Settings& settings) {
   if (least != glm::dvec3(0)) vertexColor = least;  // not usual
   std::vector<bool> used(scene.materials.size(), false);
   for (const Triangle& t : scene.triangles) used[t.material] = true;
-  const std::vector<glm::dvec3> biradiance = largestBiradiance(scene);
+  const std::vector<glm::dvec3> biradiance = largestBiradiance(scene, settings);
   std::vector<Surface> surfaces;
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     if (used[i]) surfaces.push_back(surfaceOf(scene.materials[i], settings, vertexColor, biradiance[i]));

@@ -10,6 +10,7 @@
 
 #include "analysis/feature_needs.h"
 #include "scene/camera.h"
+#include "scene/light_size.h"
 #include "scene/material_predicates.h"
 
 namespace whittle {
@@ -150,6 +151,8 @@ std::vector<Question> lightQuestions(const Needs& n) {
        !n.settings.shadows},
       {F::FILTERED_SHADOWS, n.shadows() && n.anyMaterial(filters),
        "no surface that casts a shadow lets light through"},
+      {F::LIGHT_SIZE, n.anyLight([&](const Light& l) { return hasSize(l, n.settings); }),
+       "lights are points and directions", true},
       {F::LIGHT_RANGE, n.anyLight([](const Light& l) { return std::isfinite(l.range); }),
        "no light has a range"},
       {F::MICROFACET, n.lit() && n.anyMaterial(canShowHighlight), "no rough surface shows a highlight"},

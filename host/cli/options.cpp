@@ -126,6 +126,10 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
           "0: trace them all");
   addWhole(c, "--rays-per-pixel", s.raysPerPixel, 1, 1 << 24, "N",
            "primary rays; 1 = through the pixel's centre");
+  addReal(c, "--light-radius", s.lightRadius, 0, 1e18, "METRES",
+          "of every point and spot light: shadows get soft edges, from several rays per pixel on", "0");
+  addReal(c, "--sun-angle", s.sunAngle, 0, 180, "DEGREES",
+          "that every directional light fills, likewise; the sun fills 0.53", "0");
   c.add_flag("--shadows,!--no-shadows", s.shadows, "trace shadow rays [on]");
   addChoice(c, "--sampler", s.sampler, "where in the pixel its rays start");
   addWhole(c, "--seed", s.seed, 0, std::numeric_limits<std::uint32_t>::max(), "N", "of every random number");

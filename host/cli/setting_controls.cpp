@@ -37,6 +37,8 @@ constexpr std::array kRows{
     Row{"sampler", "Picture", "sampler", Kind::Choice},
     Row{"seed", "Picture", "seed", Kind::Whole},
     Row{"shadows", "Light", "shadows", Kind::Switch},
+    Row{"light-radius", "Light", "lamps, radius m", Kind::Real},
+    Row{"sun-angle", "Light", "sun, °", Kind::Real},
     Row{"bounces", "Light", "bounces", Kind::Whole},
     Row{"transparent-bounces", "Light", "straight on", Kind::Whole},
     Row{"impulses", "Light", "impulses", Kind::Choice},

@@ -19,6 +19,14 @@ std::uint32_t hash(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dime
 /// The upper 24 bits as a number in [0, 1).
 double unit(std::uint32_t bits);
 
+/// Dimension of the first light's square at round 1; light i at round r uses the eight from
+/// kLightDimension + 8 (r + kLightRounds i) on.
+inline constexpr std::uint32_t kLightDimension = 0x10000, kLightRounds = 8192;
+
+/// Position in [0,1)² of a sample in a square of its own, whose dimensions begin at `dimension`.
+Vec2 squarePosition(Sampler sampler, std::uint32_t pixel, std::uint32_t sample, std::uint32_t count,
+                    std::uint32_t dimension, std::uint32_t seed);
+
 /// Position in [0,1)² of sample `sample` of `count` in pixel number `pixel`; the centre if count is 1.
 Vec2 samplePosition(Sampler sampler, std::uint32_t pixel, std::uint32_t sample, std::uint32_t count,
                     std::uint32_t seed);

@@ -7,6 +7,7 @@
 #include "reference/lights.h"
 #include "reference/sampler.h"
 #include "reference/texture.h"
+#include "scene/light_size.h"
 
 namespace whittle::reference {
 namespace {
@@ -20,10 +21,27 @@ Vec3 absorption(const Surfel& surfel, double t) {
   return kept;
 }
 
-Vec3 directLight(const World& world, const Sample& sample, const Surfel& surfel, const Vec3& w_o) {
+/// The light with that index, by the point of it that is this sample's at this step.
+LightSample lightFor(const World& world, const Sample& sample, const Step& step, std::size_t index,
+                     const Vec3& point) {
+  const Light& light = world.scene.lights[index];
+  const LightSample middle = sampleLight(light, point);
+  if (!hasSize(light, world.settings)) return middle;
+  const auto round = static_cast<std::uint32_t>(step.bounce + step.passed);
+  const std::uint32_t dimension =
+      kLightDimension + 8 * (round + kLightRounds * static_cast<std::uint32_t>(index));
+  return spread(light, middle, world.settings,
+                squarePosition(world.settings.sampler, sample.pixel, sample.index,
+                               static_cast<std::uint32_t>(world.settings.raysPerPixel), dimension,
+                               world.settings.seed));
+}
+
+Vec3 directLight(const World& world, const Sample& sample, const Step& step, const Surfel& surfel,
+                 const Vec3& w_o) {
   Vec3 sum(0);
-  for (const Light& light : world.scene.lights) {
-    const auto [w_i, distance, biradiance] = sampleLight(light, surfel.position);
+  for (std::size_t i = 0; i < world.scene.lights.size(); ++i) {
+    const Light& light = world.scene.lights[i];
+    const auto [w_i, distance, biradiance] = lightFor(world, sample, step, i, surfel.position);
     const double cosine = glm::dot(surfel.n, w_i);
     if (!(cosine > 0 && glm::dot(surfel.facing, w_i) > 0)) continue;
     const Vec3 unshadowed = surfel.alpha * spreadingBsdf(surfel, w_i, w_o) * biradiance * cosine;
@@ -185,7 +203,7 @@ Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& st
   if (!surfel.unlit) {
     const double ambient = world.settings.ambient.value_or(0.0F);
     if (ambient > 0) radiance += surfel.alpha * ambient * ambientReflectance(surfel, -ray.direction);
-    radiance += directLight(world, sample, surfel, -ray.direction);
+    radiance += directLight(world, sample, step, surfel, -ray.direction);
   }
   radiance += impulseLight(world, sample, ray, *hit, surfel, step, throughput * kept);
   return kept * radiance;

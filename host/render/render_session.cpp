@@ -14,6 +14,7 @@
 #include "render/preparation.h"
 #include "render/sampling_loop.h"
 #include "scene/camera.h"
+#include "scene/light_size.h"
 #include "wavefront/camera_to_device.h"
 #include "wavefront/film.h"
 #include "wavefront/pixel_recorder.h"
@@ -69,7 +70,11 @@ device::RenderConstants constantsToDevice(const Scene& scene, const Camera& came
           .transparentBounces = static_cast<std::uint32_t>(s.transparentBounces),
           .ambient = s.ambient.value_or(0.0F),
           .backgroundAhead = backgroundAhead(scene.background),
-          .backgroundClear = s.alpha ? 1U : 0U};
+          .backgroundClear = s.alpha ? 1U : 0U,
+          .lightRadius = s.lightRadius,
+          .sunVersine = static_cast<float>(sunVersine(s)),
+          .sampler = static_cast<std::uint32_t>(s.sampler),
+          .raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel)};
 }
 
 std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& settings,

@@ -54,7 +54,9 @@ struct Settings {
   /// Radiance, W/(m² sr), that every lit surface receives from all sides, unshadowed: Whitted's ambient term.
   /// Unset: chosen for the scene (automaticAmbient) before it is rendered.
   std::optional<float> ambient = 0.0F;
-  int raysPerPixel = 1;  ///< 1 = through the pixel's centre
+  int raysPerPixel = 1;      ///< 1 = through the pixel's centre
+  float lightRadius = 0.0F;  ///< metres, of every point and spot light: a sphere of the same intensity
+  float sunAngle = 0.0F;     ///< degrees that every directional light fills; the sun: 0.53
   bool shadows = true;
   Search search = Search::Auto;
   Sampler sampler = Sampler::Random;
@@ -104,6 +106,8 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("cutoff", s.cutoff);
   visit("ambient", s.ambient);
   visit("raysPerPixel", s.raysPerPixel);
+  visit("lightRadius", s.lightRadius);
+  visit("sunAngle", s.sunAngle);
   visit("shadows", s.shadows);
   visit("search", s.search);
   visit("sampler", s.sampler);

@@ -212,6 +212,7 @@ std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const Pruned
     d.castsShadows = l.castsShadows;
     d.versineOuter = versine(l.outerConeAngle);
     d.versineInner = versine(l.innerConeAngle);
+    d.index = i;
     out.push_back(d);
   }
   return out;

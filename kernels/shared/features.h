@@ -59,6 +59,7 @@
 #define BIT_DEEP_TEXTURES 50               // textures of 16 bits
 #define BIT_COVERAGE 51                    // alpha channel
 #define BIT_COST 52                        // search cost
+#define BIT_LIGHT_SIZE 53                  // lights of some size
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

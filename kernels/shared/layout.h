@@ -99,7 +99,8 @@ WHITTLE_STRUCT(DeviceLight) {
   uint castsShadows;
   float versineOuter;  // 1 - cos of the half angles
   float versineInner;
-  uint pad[2];
+  uint index;  // in the scene
+  uint pad;
 };
 
 // Vectors are four floats apart: a compiler loads the fourth along, and the bits of a small integer there
@@ -139,6 +140,11 @@ WHITTLE_STRUCT(RenderConstants) {
   float ambient;            // radiance from all sides that every lit surface receives, with AMBIENT
   float backgroundAhead;    // u of the map seen along -Z, in [0, 1]: a half, where it is not turned
   uint backgroundClear;     // 1: what the eye sees of it straight on counts as transmittance, with COVERAGE
+  // With LIGHT_SIZE: the radius of lights with a place, m; 1 - cos of half the angle that directional ones fill.
+  float lightRadius;
+  float sunVersine;
+  uint sampler;  // as in DeviceCamera
+  uint raysPerPixel;
 };
 
 // The samples of one batch: pixels [firstPixel, firstPixel + pixels) of the pixel order, times samples

@@ -215,6 +215,7 @@ std::vector<Question> cameraQuestions(const Needs& n) {
       {F::NEAR_PLANE, n.nearPlane, "nothing lies before the near plane", true},
       {F::FAR_PLANE, n.settings.clipFar && n.camera() && std::isfinite(n.camera()->zfar),
        n.settings.clipFar ? "the camera has no far plane" : "the far plane is not asked for", true},
+      {F::LENS, n.settings.aperture > 0.0F, "the camera is a pinhole", true},
       {F::FIXED_RAY_OFFSET, n.settings.rayOffset.has_value(), "the ray offset is derived at each hit"},
       {F::COVERAGE, n.settings.alpha, "no alpha channel was asked for", true},
       {F::AOVS, n.settings.aovs, "no auxiliary output was asked for", true},

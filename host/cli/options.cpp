@@ -10,6 +10,7 @@
 
 #include "analysis/ambient.h"
 #include "analysis/feature_needs.h"
+#include "analysis/focus.h"
 #include "cli/background.h"
 #include "cli/error_options.h"
 #include "cli/feature_names.h"
@@ -126,6 +127,18 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
           "0: trace them all");
   addWhole(c, "--rays-per-pixel", s.raysPerPixel, 1, 1 << 24, "N",
            "primary rays; 1 = through the pixel's centre");
+  addReal(c, "--aperture", s.aperture, 0, 1e18, "METRES",
+          "diameter of the camera's lens: what is nearer or farther than the focus is blurred",
+          "0: a pinhole");
+  o.focusPixel = addText(c, "--focus-pixel",
+                         [&o](const std::string& word) { o.focus = parsePixel("--focus-pixel", word); },
+                         {"X,Y", "focus on what is seen there, in pixels from the top left", "the middle"});
+  addText(c, "--focus-distance",
+          [&s](const std::string& word) {
+            s.focusDistance = parseRealOrAuto("--focus-distance", word, 1e-6, 1e18);
+          },
+          {"auto|METRES", "focus on this distance along the camera's axis", "auto: what the middle shows"})
+      ->excludes(o.focusPixel);
   addReal(c, "--light-radius", s.lightRadius, 0, 1e18, "METRES",
           "of every point and spot light: shadows get soft edges, from several rays per pixel on", "0");
   addReal(c, "--sun-angle", s.sunAngle, 0, 180, "DEGREES",
@@ -195,6 +208,24 @@ MemoryBudget budgetOf(const SceneOptions& options) {
   return MemoryBudget(options.memory.value_or(memoryLimitOfMachine()));
 }
 
+/// What a lens is focused on, where nobody gives a distance.
+void settleFocus(const SceneOptions& options, const Scene& scene, Settings& settings, Notices& notices) {
+  if (!(settings.aperture > 0.0F) || settings.focusDistance) return;
+  const auto place = [](int pixel, int size) { return (pixel + 0.5) / size; };
+  double x = 0.5, y = 0.5;
+  if (options.focus) {
+    const auto [column, row] = *options.focus;
+    if (column >= settings.width || row >= settings.height)
+      throw InputError(fmt::format("--focus-pixel: {},{} is outside the picture of {}×{}", column, row,
+                                   settings.width, settings.height));
+    x = place(column, settings.width), y = place(row, settings.height);
+  }
+  const Camera& camera = scene.cameras[findCamera(scene, settings.camera)];
+  settings.focusDistance =
+      focusOn(scene, camera, static_cast<double>(settings.width) / settings.height, x, y);
+  notices.note(fmt::format("focused on {:.4g} m", *settings.focusDistance));
+}
+
 Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings& settings,
                 MemoryBudget& budget, Notices& notices) {
   nowDoing("reading the scene");
@@ -229,6 +260,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
     notices.note(fmt::format("--ambient auto{}: {} W/(m² sr)", isStudio ? ", with the studio's lights" : "",
                              *settings.ambient));
   }
+  settleFocus(options, scene, settings, notices);
   nowDoing("");
   for (const auto& text : notices.warnings) warn(text);
   if (!options.quiet)

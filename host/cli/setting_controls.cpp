@@ -34,6 +34,8 @@ constexpr std::array kRows{
     Row{"height", "Picture", "height", Kind::Whole},
     Row{"exposure", "Picture", "exposure, stops", Kind::Real},
     Row{"tone-map", "Picture", "tone map", Kind::Choice},
+    Row{"aperture", "Picture", "aperture, m", Kind::Real},
+    Row{"focus-distance", "Picture", "focus, m", Kind::Text},
     Row{"sampler", "Picture", "sampler", Kind::Choice},
     Row{"seed", "Picture", "seed", Kind::Whole},
     Row{"shadows", "Light", "shadows", Kind::Switch},

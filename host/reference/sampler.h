@@ -19,6 +19,9 @@ std::uint32_t hash(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dime
 /// The upper 24 bits as a number in [0, 1).
 double unit(std::uint32_t bits);
 
+/// Of the lens's square.
+inline constexpr std::uint32_t kLensDimension = 8;
+
 /// Dimension of the first light's square at round 1; light i at round r uses the eight from
 /// kLightDimension + 8 (r + kLightRounds i) on.
 inline constexpr std::uint32_t kLightDimension = 0x10000, kLightRounds = 8192;

@@ -216,7 +216,10 @@ PixelResult traceOnePixel(const World& world, int x, int y, RayCounts& rays) {
   PixelResult result;
   for (std::uint32_t s = 0; s < count; ++s) {
     const Vec2 position = Vec2(x, y) + samplePosition(settings.sampler, pixel, s, count, settings.seed);
-    const Ray ray = eyeRay(world.camera, position, settings.width, settings.height);
+    Ray ray = eyeRay(world.camera, position, settings.width, settings.height);
+    if (settings.aperture > 0)
+      ray = throughLens(world.camera, ray, settings.aperture, settings.focusDistance.value_or(1.0F),
+                        squarePosition(settings.sampler, pixel, s, count, kLensDimension, settings.seed));
     ++rays.primary;
     double transmittance = 0;
     const Vec3 radiance =

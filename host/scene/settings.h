@@ -57,6 +57,10 @@ struct Settings {
   int raysPerPixel = 1;      ///< 1 = through the pixel's centre
   float lightRadius = 0.0F;  ///< metres, of every point and spot light: a sphere of the same intensity
   float sunAngle = 0.0F;     ///< degrees that every directional light fills; the sun: 0.53
+  float aperture = 0.0F;     ///< metres, the diameter of the camera's thin lens; 0: a pinhole
+  /// Metres along the camera's axis that it is focused on. Unset: what the middle of the picture shows,
+  /// settled before it is rendered.
+  std::optional<float> focusDistance;
   bool shadows = true;
   Search search = Search::Auto;
   Sampler sampler = Sampler::Random;
@@ -108,6 +112,8 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("raysPerPixel", s.raysPerPixel);
   visit("lightRadius", s.lightRadius);
   visit("sunAngle", s.sunAngle);
+  visit("aperture", s.aperture);
+  visit("focusDistance", s.focusDistance);
   visit("shadows", s.shadows);
   visit("search", s.search);
   visit("sampler", s.sampler);

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "analysis/focus.h"
 #include "render/aovs.h"
 #include "render/explanation.h"
 #include "report/stats.h"
@@ -114,6 +115,8 @@ void Viewer::takeOver(Loaded loaded) {
 Request Viewer::request() const {
   Settings settings = settings_;
   if (layer_ != kBeauty) askForAov(settings, layer_);
+  if (settings.aperture > 0 && !settings.focusDistance)
+    settings.focusDistance = focusOn(*scene_, camera_.camera(), aspect());
   return {scene_, camera_.camera(), settings, isMoving_};
 }
 

@@ -117,6 +117,18 @@ INLINE Real3 sumError3(Real3 a, Real3 b, Real3 sum) {
   return real3(sumError(a.x, b.x, sum.x), sumError(a.y, b.y, sum.y), sumError(a.z, b.z, sum.z));
 }
 
+/// cos and sin of 2 pi turns; lane by lane, since those of vectors may round otherwise.
+INLINE void aroundCircle(Real turns, Real* cosine, Real* sine) {
+  float c[LANES], s[LANES];
+  STORE(turns, c);
+  for (uint k = 0; k < LANES; ++k) {
+    const float halfTurns = 2.0f * c[k];
+    c[k] = cospi(halfTurns), s[k] = sinpi(halfTurns);
+  }
+  *cosine = LOAD(c);
+  *sine = LOAD(s);
+}
+
 /// One struct out of an array for each lane: where its words begin. Neighbours mostly share one.
 typedef struct {
   __global const float* words;

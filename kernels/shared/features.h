@@ -60,6 +60,7 @@
 #define BIT_COVERAGE 51                    // alpha channel
 #define BIT_COST 52                        // search cost
 #define BIT_LIGHT_SIZE 53                  // lights of some size
+#define BIT_LENS 54                        // thin lens
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

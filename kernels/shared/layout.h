@@ -123,6 +123,12 @@ WHITTLE_STRUCT(DeviceCamera) {
   uint sampler;  // 0 random, 1 stratified, 2 sobol
   float znear;   // metres along forward: where eye rays begin, with NEAR_PLANE
   uint pad;
+  // With LENS: unit vectors in its plane, its radius, and how far along forward it is focused, m.
+  float right[4];
+  float up[4];
+  float lensRadius;
+  float focusDistance;
+  uint padding[2];
 };
 
 // Constants of a render that a kernel needs by value.

@@ -61,20 +61,16 @@ typedef struct {
 } LightPoint;
 
 /// A direction within a cone about `axis` (unit), evenly in solid angle. less: 1 - cos of the angle between them, at
-/// most that of the cone; turn: the angle about the axis in half turns. Basis: Duff et al. 2017.
-INLINE Real3 inCone(Real3 axis, Real less, Real turn) {
-  float cosine[LANES], sine[LANES];
-  STORE(turn, cosine);
-  for (uint k = 0; k < LANES; ++k) {
-    const float own = cosine[k];
-    cosine[k] = cospi(own), sine[k] = sinpi(own);
-  }
+/// most that of the cone. Basis: Duff et al. 2017.
+INLINE Real3 inCone(Real3 axis, Real less, Real turns) {
+  Real cosine, sine;
+  aroundCircle(turns, &cosine, &sine);
   const Real side = copysign((Real)(1.0f), axis.z);
   const Real a = -1.0f / (side + axis.z), b = axis.x * axis.y * a;
   const Real3 right = real3(1.0f + side * axis.x * axis.x * a, side * b, -side * axis.x);
   const Real3 up = real3(b, side + axis.y * axis.y * a, -axis.y);
   const Real away = sqrt(less * (2.0f - less));
-  const Real3 across = add3(scale3(away * LOAD(cosine), right), scale3(away * LOAD(sine), up));
+  const Real3 across = add3(scale3(away * cosine, right), scale3(away * sine, up));
   return normalize3(add3(scale3(1.0f - less, axis), across));
 }
 
@@ -86,7 +82,7 @@ INLINE Illumination spread(__global const DeviceLight* light, const Illumination
 #if HAS(DIRECTIONAL_LIGHTS)
   if (light->kind == LIGHT_DIRECTIONAL) {
     if (at->sunVersine > 0.0f) {
-      result.w_i = inCone(point->w_i, at->u * at->sunVersine, 2.0f * at->v);
+      result.w_i = inCone(point->w_i, at->u * at->sunVersine, at->v);
       result.biradiance = scale3((Real)(2.0f / (2.0f - at->sunVersine)), point->biradiance);
     }
     return result;
@@ -99,7 +95,7 @@ INLINE Illumination spread(__global const DeviceLight* light, const Illumination
     const Real root = sqrt(outside ? 1.0f - squared : (Real)(0.0f));
     const Real less = at->u * squared / (1.0f + root);
     const Real chord = squared - less * (2.0f - less);
-    result.w_i = inCone(point->w_i, less, 2.0f * at->v);
+    result.w_i = inCone(point->w_i, less, at->v);
     result.distance = point->distance * (1.0f - less - sqrt(chord > 0.0f ? chord : (Real)(0.0f)));
     const Real3 spreadOut = scale3(2.0f / (1.0f + root), point->biradiance);
     result.biradiance = choose3(outside, spreadOut, same3((float3)(0.0f)));

@@ -77,22 +77,26 @@ INLINE SampleNames sampleNames(const Batch* batch, uint width, __global const ui
 }
 
 
-#if HAS(LIGHT_SIZE)
-/// Dimensions of the lights' squares, 8 for each: behind those of pixels and impulses.
-#define LIGHT_DIMENSION 0x10000u
-#define LIGHT_ROUNDS 8192u  // more than bounces and passages straight on together
-
-INLINE LightPoint lightPoints(const RenderConstants* constants, const SampleNames* names, uint bounce, uint light) {
-  const uint dimension = LIGHT_DIMENSION + 8u * (bounce + LIGHT_ROUNDS * light);
+/// Where the entries' samples lie in the square whose dimensions begin at `dimension`.
+INLINE Square sampleSquares(const RenderConstants* constants, const SampleNames* names, uint dimension) {
   float u[LANES], v[LANES];
   for (uint k = 0; k < LANES; ++k) {
     const float2 at = sampleSquare(constants->sampler, names->place[k], names->sample[k], constants->raysPerPixel,
                                    dimension, constants->seed);
     u[k] = at.x, v[k] = at.y;
   }
-  const LightPoint points = {constants->lightRadius, constants->sunVersine, LOAD(u), LOAD(v)};
-  return points;
+  const Square square = {LOAD(u), LOAD(v)};
+  return square;
 }
+
+// Dimensions of squares, behind those of pixel, lens and chosen impulses: of the microfacets at each bounce, then of
+// each light at each bounce.
+#define SQUARE_DIMENSIONS 8u
+#define GLOSS_DIMENSION 0x10000u
+#define LIGHT_DIMENSION 0x40000u
+#define ROUNDS 8192u  // more than bounces and passages straight on together
+
+#if HAS(LIGHT_SIZE)
 #define LIGHT_NAMES (&names)
 #else
 #define LIGHT_NAMES 0
@@ -109,8 +113,9 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
 #endif
   __global const DeviceLight* light = scene->lights + lightIndex;
 #if HAS(LIGHT_SIZE)
-  const LightPoint points = lightPoints(constants, names, bounce, light->index);
-  const Illumination middle = illuminationAt(light, s->position), arriving = spread(light, &middle, &points);
+  const uint dimension = LIGHT_DIMENSION + SQUARE_DIMENSIONS * (bounce + ROUNDS * light->index);
+  const Illumination middle = illuminationAt(light, s->position);
+  const Illumination arriving = spread(light, constants, &middle, sampleSquares(constants, names, dimension));
 #else
   const Illumination arriving = illuminationAt(light, s->position);
 #endif
@@ -273,7 +278,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #else
   const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
 #endif
-#if HAS(AOVS) || HAS(ONE_IMPULSE) || HAS(LIGHT_SIZE)
+#if HAS(AOVS) || HAS(ONE_IMPULSE) || HAS(LIGHT_SIZE) || HAS(GLOSS)
   const Batch ownBatch = batch;
   const uint active = count - i < LANES ? count - i : LANES;
   const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays, capacity, first + i, active);
@@ -311,7 +316,12 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #endif
 #if HAS(IMPULSES)
     Impulse one, two;
-    impulsesAt(&own, &s, w_o, &one, &two);
+#if HAS(GLOSS)
+    const Square facets = sampleSquares(&own, &names, GLOSS_DIMENSION + SQUARE_DIMENSIONS * bounce);
+#else
+    const Square facets = {(Real)(0.0f), (Real)(0.0f)};
+#endif
+    impulsesAt(&own, &s, w_o, facets, &one, &two);
     shaded = spoiltBy(shaded, add3(one.magnitude, two.magnitude));
 #if HAS(ONE_IMPULSE)
     chooseOne(&one, &two, randomNumber(&names, 16u + bounce, own.seed));

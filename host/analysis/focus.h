@@ -13,8 +13,8 @@ namespace whittle {
 glm::dvec3 pointUnder(const Scene& scene, const Camera& camera, double aspect, double x, double y,
                       const glm::dvec3& otherwise);
 
-/// How far along the camera's axis lies what it shows at (x, y), as above, metres: what a lens is focused on. Where
-/// nothing is met, the scene's middle, or 1.
+/// How far along the camera's axis lies what it shows at (x, y), as above, metres: what a lens is focused on.
+/// Where nothing is met, the scene's middle, or 1.
 float focusOn(const Scene& scene, const Camera& camera, double aspect, double x = 0.5, double y = 0.5);
 
 }  // namespace whittle

@@ -66,7 +66,11 @@ class Needs {
   bool anyMaterial(bool (*asked)(const Material&, float)) const {
     return anyMaterial([&](const Material& m) { return asked(m, settings.mirrorRoughness); });
   }
-  bool bounces() const { return settings.bounces > 1 && anyMaterial(canSendImpulses); }
+  /// The same of what sends out impulses.
+  bool anyReflecting(bool (*asked)(const Material&, float)) const {
+    return anyMaterial([&](const Material& m) { return asked(m, reflectingRoughness(settings)); });
+  }
+  bool bounces() const { return settings.bounces > 1 && anyReflecting(canSendImpulses); }
   bool straight() const { return anyMaterial(goesStraightOn); }
   /// Null in scenes by hand that have none.
   const Camera* camera() const {
@@ -80,7 +84,7 @@ class Needs {
     return settings.shadows && lit() && anyLight([](const Light& l) { return l.castsShadows; });
   }
   bool twoImpulses() const {
-    return directsImpulses() && settings.impulses == ImpulseMode::All && anyMaterial(canSendTwoImpulses);
+    return directsImpulses() && settings.impulses == ImpulseMode::All && anyReflecting(canSendTwoImpulses);
   }
   const Image& imageOf(const TextureSlot& slot) const {
     return scene.images[pruned.images[static_cast<std::size_t>(slot.image)]];
@@ -179,7 +183,9 @@ std::vector<Question> impulseQuestions(const Needs& n) {
        n.settings.backFaces == BackFaces::Cull ? "every surface has two sides" : "back faces are shown",
        true},
       {F::METAL, n.anyMaterial(isMetallic), "no material is metallic"},
-      {F::MIRROR, some && n.anyMaterial(canReflect), some ? "no smooth material reflects" : none},
+      {F::MIRROR, some && n.anyReflecting(canReflect), some ? "no smooth material reflects" : none},
+      {F::GLOSS, some && n.settings.glossy && n.anyMaterial(canBeRough),
+       n.settings.glossy ? "no material is rough" : "rough surfaces show highlights alone", true},
       {F::TRANSMISSION, n.anyMaterial(transmits), "no material transmits"},
       {F::REFRACTION, some && n.anyMaterial(refracts), "no transmitting material bounds a volume"},
       {F::ABSORPTION, n.anyMaterial(absorbs), "no volume absorbs"},

@@ -139,6 +139,10 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
           },
           {"auto|METRES", "focus on this distance along the camera's axis", "auto: what the middle shows"})
       ->excludes(o.focusPixel);
+  c.add_flag(
+      "--glossy,!--no-glossy", s.glossy,
+      "rough surfaces reflect and refract what is around them, blurred, from several rays per pixel on; "
+      "--mirror-roughness is 0.03 then unless it is given [off]");
   addReal(c, "--light-radius", s.lightRadius, 0, 1e18, "METRES",
           "of every point and spot light: shadows get soft edges, from several rays per pixel on", "0");
   addReal(c, "--sun-angle", s.sunAngle, 0, 180, "DEGREES",
@@ -149,8 +153,9 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
   addChoice(c, "--impulses", s.impulses, "follow both branches of a surface, or one chosen at random");
   addReal(c, "--ray-offset,--bump", s.rayOffset, 0, 1e30, "METRES",
           "distance of a ray's origin from its surface", "from the rounding error of each hit");
-  addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R", "surfaces smoother than this are mirrors",
-          fmt::format("{}", s.mirrorRoughness));
+  o.mirrorRoughness =
+      addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R",
+              "surfaces smoother than this are mirrors", fmt::format("{}", s.mirrorRoughness));
 }
 
 void addDeviceOptions(CLI::App& c, Settings& s) {
@@ -208,6 +213,9 @@ MemoryBudget budgetOf(const SceneOptions& options) {
   return MemoryBudget(options.memory.value_or(memoryLimitOfMachine()));
 }
 
+/// Surfaces smoother than this look like mirrors, glossy or not.
+constexpr float kGlossyMirrorRoughness = 0.03F;
+
 /// What a lens is focused on, where nobody gives a distance.
 void settleFocus(const SceneOptions& options, const Scene& scene, Settings& settings, Notices& notices) {
   if (!(settings.aperture > 0.0F) || settings.focusDistance) return;
@@ -261,6 +269,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
                              *settings.ambient));
   }
   settleFocus(options, scene, settings, notices);
+  if (settings.glossy && !given(options.mirrorRoughness)) settings.mirrorRoughness = kGlossyMirrorRoughness;
   nowDoing("");
   for (const auto& text : notices.warnings) warn(text);
   if (!options.quiet)

@@ -28,7 +28,8 @@ struct SceneOptions {
   ViewpointOptions view;
   std::optional<glm::ivec2> focus;  ///< a pixel to focus on
   /// Null where the command draws no picture.
-  CLI::Option *width = nullptr, *height = nullptr, *ambient = nullptr, *focusPixel = nullptr;
+  CLI::Option *width = nullptr, *height = nullptr, *ambient = nullptr, *focusPixel = nullptr,
+              *mirrorRoughness = nullptr;
 };
 
 void addSceneOptions(CLI::App& command, SceneOptions& options);

@@ -30,7 +30,8 @@ struct Impulses {
   std::span<const Impulse> all() const { return {items.data(), static_cast<std::size_t>(count)}; }
 };
 
-Impulses impulsesOf(const Surfel& surfel, const Vec3& w_o);
+/// `facets`: of a glossy surfel which of the microfacets that w_o sees, a point of the unit square.
+Impulses impulsesOf(const Surfel& surfel, const Vec3& w_o, const Vec2& facets = Vec2(0));
 
 /// One of them, chosen with probability in proportion to its luminance by `u` in [0,1), divided by that.
 Impulses chooseOne(const Impulses& impulses, double u);

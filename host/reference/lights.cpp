@@ -25,13 +25,9 @@ double coneWindow(const Light& light, const Vec3& w_i) {
   return square(std::clamp((outer - v) / (outer - inner), 0.0, 1.0));
 }
 
-/// A direction about `axis`; `versine`: 1 − cos of the angle between them. Duff et al., "Building an
-/// Orthonormal Basis, Revisited", JCGT 2017.
+/// A direction about `axis`; `versine`: 1 − cos of the angle between them.
 Vec3 besideAxis(const Vec3& axis, double versine, double turn) {
-  const double side = std::copysign(1.0, axis.z);
-  const double a = -1 / (side + axis.z), b = axis.x * axis.y * a;
-  const Vec3 right(1 + side * axis.x * axis.x * a, side * b, -side * axis.x);
-  const Vec3 up(b, side + axis.y * axis.y * a, -axis.y);
+  const auto [right, up] = basisAbout(axis);
   const double angle = 2 * std::numbers::pi * turn, away = std::sqrt(versine * (2 - versine));
   return glm::normalize((1 - versine) * axis + away * (std::cos(angle) * right + std::sin(angle) * up));
 }

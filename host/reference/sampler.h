@@ -22,9 +22,9 @@ double unit(std::uint32_t bits);
 /// Of the lens's square.
 inline constexpr std::uint32_t kLensDimension = 8;
 
-/// Dimension of the first light's square at round 1; light i at round r uses the eight from
-/// kLightDimension + 8 (r + kLightRounds i) on.
-inline constexpr std::uint32_t kLightDimension = 0x10000, kLightRounds = 8192;
+/// Where the eight dimensions of the microfacets' square at round r begin, less 8 r; of light i's, less
+/// 8 (r + kRounds i).
+inline constexpr std::uint32_t kGlossDimension = 0x10000, kLightDimension = 0x40000, kRounds = 8192;
 
 /// Position in [0,1)² of a sample in a square of its own, whose dimensions begin at `dimension`.
 Vec2 squarePosition(Sampler sampler, std::uint32_t pixel, std::uint32_t sample, std::uint32_t count,

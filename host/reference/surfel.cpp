@@ -130,6 +130,7 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
       .emission = Vec3(0),
       .sigma_a = Vec3(material.sigma_a)};
   surfel.smooth = surfel.roughness < static_cast<double>(settings.mirrorRoughness);
+  surfel.glossy = settings.glossy && !surfel.smooth && !surfel.unlit;
   surfel.eta = relativeIndex(material, surfel.front);
   if (!surfel.front) {
     surfel.facing = -surfel.facing;

@@ -21,19 +21,24 @@ Vec3 absorption(const Surfel& surfel, double t) {
   return kept;
 }
 
+std::uint32_t roundOf(const Step& step) { return static_cast<std::uint32_t>(step.bounce + step.passed); }
+
+/// Where the sample lies in the square whose dimensions begin there.
+Vec2 squareOf(const World& world, const Sample& sample, std::uint32_t dimension) {
+  const Settings& s = world.settings;
+  return squarePosition(s.sampler, sample.pixel, sample.index, static_cast<std::uint32_t>(s.raysPerPixel),
+                        dimension, s.seed);
+}
+
 /// The light with that index, by the point of it that is this sample's at this step.
 LightSample lightFor(const World& world, const Sample& sample, const Step& step, std::size_t index,
                      const Vec3& point) {
   const Light& light = world.scene.lights[index];
   const LightSample middle = sampleLight(light, point);
   if (!hasSize(light, world.settings)) return middle;
-  const auto round = static_cast<std::uint32_t>(step.bounce + step.passed);
   const std::uint32_t dimension =
-      kLightDimension + 8 * (round + kLightRounds * static_cast<std::uint32_t>(index));
-  return spread(light, middle, world.settings,
-                squarePosition(world.settings.sampler, sample.pixel, sample.index,
-                               static_cast<std::uint32_t>(world.settings.raysPerPixel), dimension,
-                               world.settings.seed));
+      kLightDimension + 8 * (roundOf(step) + kRounds * static_cast<std::uint32_t>(index));
+  return spread(light, middle, world.settings, squareOf(world, sample, dimension));
 }
 
 Vec3 directLight(const World& world, const Sample& sample, const Step& step, const Surfel& surfel,
@@ -68,7 +73,8 @@ bool isFollowed(const Settings& settings, const Impulse& impulse, const Step& st
 
 Vec3 impulseLight(const World& world, const Sample& sample, const Ray& arrived, const Hit& hit,
                   const Surfel& surfel, const Step& step, const Vec3& throughput) {
-  Impulses impulses = impulsesOf(surfel, -arrived.direction);
+  const Vec2 facets = surfel.glossy ? squareOf(world, sample, kGlossDimension + 8 * roundOf(step)) : Vec2(0);
+  Impulses impulses = impulsesOf(surfel, -arrived.direction, facets);
   if (world.settings.impulses == ImpulseMode::One) {
     const auto dimension = static_cast<std::uint32_t>(kImpulseDimension + step.bounce + step.passed);
     impulses = chooseOne(impulses, unit(hash(sample.pixel, sample.index, dimension, world.settings.seed)));
@@ -136,7 +142,7 @@ bool showsSide(const World& world, const Ray& ray, const Hit& hit) {
 /// rough its metal.
 Vec3 ambientReflectance(const Surfel& s, const Vec3& w_o) {
   const Vec3 matte = (1 - s.metallic) * (1 - s.transmission) * s.baseColor;
-  if (!s.smooth) return matte + s.metallic * s.baseColor;
+  if (!s.smooth && !s.glossy) return matte + s.metallic * s.baseColor;
   return matte * (1.0 - s.fresnel.reflectance(std::min(1.0, glm::dot(s.n, w_o)), s.eta));
 }
 

@@ -74,7 +74,8 @@ device::RenderConstants constantsToDevice(const Scene& scene, const Camera& came
           .lightRadius = s.lightRadius,
           .sunVersine = static_cast<float>(sunVersine(s)),
           .sampler = static_cast<std::uint32_t>(s.sampler),
-          .raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel)};
+          .raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel),
+          .glossy = s.glossy ? 1U : 0U};
 }
 
 std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& settings,

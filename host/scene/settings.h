@@ -61,6 +61,7 @@ struct Settings {
   /// Metres along the camera's axis that it is focused on. Unset: what the middle of the picture shows,
   /// settled before it is rendered.
   std::optional<float> focusDistance;
+  bool glossy = false;  ///< rough surfaces reflect and refract what is around them
   bool shadows = true;
   Search search = Search::Auto;
   Sampler sampler = Sampler::Random;
@@ -114,6 +115,7 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("sunAngle", s.sunAngle);
   visit("aperture", s.aperture);
   visit("focusDistance", s.focusDistance);
+  visit("glossy", s.glossy);
   visit("shadows", s.shadows);
   visit("search", s.search);
   visit("sampler", s.sampler);

@@ -61,6 +61,7 @@
 #define BIT_COST 52                        // search cost
 #define BIT_LIGHT_SIZE 53                  // lights of some size
 #define BIT_LENS 54                        // thin lens
+#define BIT_GLOSS 55                       // glossy impulses
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

@@ -151,6 +151,7 @@ WHITTLE_STRUCT(RenderConstants) {
   float sunVersine;
   uint sampler;  // as in DeviceCamera
   uint raysPerPixel;
+  uint glossy;  // 1: rough surfaces send out impulses, with GLOSS
 };
 
 // The samples of one batch: pixels [firstPixel, firstPixel + pixels) of the pixel order, times samples

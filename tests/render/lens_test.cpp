@@ -47,8 +47,8 @@ Spot spotOf(const RenderResult& result, double radius) {
   return spot;
 }
 
-/// On an image plane one unit ahead a point at distance d is a disk of diameter A |1/f − 1/d| (similar triangles; Potmesil
-/// and Chakravarty 1981). Before and behind the focus, for every sampler.
+/// On an image plane one unit ahead a point at distance d is a disk of diameter A |1/f − 1/d| (similar
+/// triangles; Potmesil and Chakravarty 1981). Before and behind the focus, for every sampler.
 TEST(Lens, ACircleOfConfusionHasTheDiameterOfTheFormula) {
   struct Case {
     double focus, distance;
@@ -111,7 +111,8 @@ TEST(Lens, AgreesWithTheReference) {
     settings.focusDistance = focusOn(scene, scene.cameras[0], 16.0 / 9);
     settings.raysPerPixel = 4;
     settings.sampler = Sampler::Sobol;
-    expectAgreement(compareWithReference(scene, settings), orthographic ? "orthographic" : "perspective", 400);
+    expectAgreement(compareWithReference(scene, settings), orthographic ? "orthographic" : "perspective",
+                    400);
   }
 }
 

@@ -8,7 +8,7 @@
 #include "lib/surface/ray_offset.cl"
 #include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
-#include "lib/surface/light.cl"
+#include "lib/surface/emitters.cl"
 #include "lib/sampler.cl"
 
 /// exp(-sigma t), 1 where sigma is 0; lane by lane, since exp of a vector may round otherwise.
@@ -96,7 +96,7 @@ INLINE Square sampleSquares(const RenderConstants* constants, const SampleNames*
 #define LIGHT_DIMENSION 0x40000u
 #define ROUNDS 8192u  // more than bounces and passages straight on together
 
-#if HAS(LIGHT_SIZE)
+#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS)
 #define LIGHT_NAMES (&names)
 #else
 #define LIGHT_NAMES 0
@@ -104,7 +104,7 @@ INLINE Square sampleSquares(const RenderConstants* constants, const SampleNames*
 
 #if HAS(LIGHTS)
 /// Direct light from one light where `lit`: a shadow candidate, or added to `radiance` at once where nothing can be in
-/// the way. names: of the entries, with LIGHT_SIZE. Returns ENTRY_SHADOW for a candidate, else 0.
+/// the way. names: of the entries, where the light is sampled. Returns ENTRY_SHADOW for a candidate, else 0.
 INLINE Natural directLight(const SceneView* scene, const RenderConstants* constants, const Surfel* s, Real3 w_o,
                            Mask lit, uint lightIndex, Real3 attenuation, uint i, uint capacity, __global float* shadows,
                            Real3* radiance, const SampleNames* names, uint bounce) {
@@ -112,17 +112,21 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
   lit = lit & ((s->flags & MATERIAL_UNLIT) == 0);
 #endif
   __global const DeviceLight* light = scene->lights + lightIndex;
-#if HAS(LIGHT_SIZE)
+  Illumination arriving = illuminationAt(light, s->position);
+#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS)
   const uint dimension = LIGHT_DIMENSION + SQUARE_DIMENSIONS * (bounce + ROUNDS * light->index);
-  const Illumination middle = illuminationAt(light, s->position);
-  const Illumination arriving = spread(light, constants, &middle, sampleSquares(constants, names, dimension));
-#else
-  const Illumination arriving = illuminationAt(light, s->position);
+  const Square square = sampleSquares(constants, names, dimension);
+#if HAS(LIGHT_SIZE)
+  arriving = spread(light, constants, &arriving, square);
+#endif
+#if HAS(SURFACE_LIGHTS)
+  if (light->kind == LIGHT_SURFACE) arriving = emitterIllumination(scene, light->emitters, s->position, square);
+#endif
 #endif
   const Real cosine = dot3(s->n, arriving.w_i);
   lit = lit & (cosine > 0.0f) & (dot3(s->n_g, arriving.w_i) > 0.0f) & notDark(arriving.biradiance);
   if (!some(lit)) return (Natural)(0);
-  const Real3 f = finiteScattering(constants, s, w_o, arriving.w_i);
+  const Real3 f = finiteScattering(constants, s, w_o, arriving.w_i, light->kind);
   const Real3 contribution = scale3(cosine, mul3(scale3(s->alpha, f), arriving.biradiance));
   lit = lit & notDark(contribution);
   const Real3 carried = mul3(contribution, attenuation);
@@ -278,7 +282,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #else
   const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
 #endif
-#if HAS(AOVS) || HAS(ONE_IMPULSE) || HAS(LIGHT_SIZE) || HAS(GLOSS)
+#if HAS(AOVS) || HAS(ONE_IMPULSE) || HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(GLOSS)
   const Batch ownBatch = batch;
   const uint active = count - i < LANES ? count - i : LANES;
   const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays, capacity, first + i, active);
@@ -372,7 +376,7 @@ __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const B
 #endif
   Natural found = (Natural)(0);
   if (some(a.hit)) {
-#if HAS(LIGHT_SIZE)
+#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS)
     const Batch ownBatch = batch;
     const uint active = count - i < LANES ? count - i : LANES;
     const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays, capacity, first + i, active);

@@ -114,6 +114,10 @@ std::vector<glm::dvec3> largestBiradiance(const Scene& scene, const Settings& se
   std::vector<glm::dvec3> sums(scene.materials.size(), glm::dvec3(0));
   const std::vector<Run> runs = runsOf(scene);
   for (const Light& light : scene.lights) {
+    if (light.kind == LightKind::Surface) {  // beside an edge that glows there is no end to it
+      for (auto& sum : sums) sum = glm::dvec3(kInfinity);
+      continue;
+    }
     // A light of some size is sampled evenly in solid angle: near a sphere that is up to twice what its
     // middle would send, and nothing inside it.
     const double spread = !hasSize(light, settings)     ? 1.0

@@ -141,7 +141,8 @@ std::vector<Question> lightTypeQuestions(const Needs& n) {
   for (const LightType& type : kLightTypes)
     questions.push_back({featureOf(type.kind),
                          n.anyLight([&](const Light& l) { return l.kind == type.kind; }),
-                         fmt::format("no {} light", type.word)});
+                         fmt::format("no {} light", type.word),
+                         type.kind == LightKind::Surface});  // a second surfel at each hit: long to compile
   return questions;
 }
 

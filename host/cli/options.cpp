@@ -21,6 +21,7 @@
 #include "report/text.h"
 #include "scene/byte_counts.h"
 #include "scene/camera.h"
+#include "scene/emitters.h"
 #include "scene/input_error.h"
 #include "scene/machine_memory.h"
 
@@ -143,6 +144,10 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
       "--glossy,!--no-glossy", s.glossy,
       "rough surfaces reflect and refract what is around them, blurred, from several rays per pixel on; "
       "--mirror-roughness is 0.03 then unless it is given [off]");
+  c.add_flag(
+      "--area-lights,!--no-area-lights", s.areaLights,
+      "surfaces that glow light others, from several rays per pixel on; the scene gets no lights of ours "
+      "then [off]");
   addReal(c, "--light-radius", s.lightRadius, 0, 1e18, "METRES",
           "of every point and spot light: shadows get soft edges, from several rays per pixel on", "0");
   addReal(c, "--sun-angle", s.sunAngle, 0, 180, "DEGREES",
@@ -253,9 +258,12 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   if (hasSize) load.aspect = static_cast<double>(settings.width) / settings.height;
   if (!options.scene.empty()) load.sceneName = options.scene;
   load.defaultLights = options.defaultLights;
+  if (settings.areaLights && !load.defaultLights) load.defaultLights = false;
   load.confined = options.confined;
   load.defaultBackground = options.defaultBackground && options.background.empty();
   Scene scene = loadGltf(options.file, load, notices);
+  if (settings.areaLights && !addSurfaceLight(scene))
+    notices.warn("--area-lights: no surface of the scene glows");
   settleSize(options, scene, settings);
   if (!hasSize) holdPicture();
   if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))

@@ -39,6 +39,7 @@ constexpr std::array kRows{
     Row{"sampler", "Picture", "sampler", Kind::Choice},
     Row{"seed", "Picture", "seed", Kind::Whole},
     Row{"shadows", "Light", "shadows", Kind::Switch},
+    Row{"area-lights", "Light", "area lights", Kind::Switch, true},
     Row{"glossy", "Light", "glossy", Kind::Switch},
     Row{"light-radius", "Light", "lamps, radius m", Kind::Real},
     Row{"sun-angle", "Light", "sun, °", Kind::Real},

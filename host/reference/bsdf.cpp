@@ -77,7 +77,7 @@ std::optional<Vec3> transmittedByFacet(const Surfel& s, const Vec3& w_o, const V
 
 }  // namespace
 
-Vec3 spreadingBsdf(const Surfel& s, const Vec3& w_i, const Vec3& w_o) {
+Vec3 spreadingBsdf(const Surfel& s, const Vec3& w_i, const Vec3& w_o, bool withoutGloss) {
   const double no = glm::dot(s.n, w_o);
   const Vec3 diffuse = (1 - s.transmission) * s.baseColor / kPi;
   if (s.smooth) return (1 - s.metallic) * (1.0 - s.fresnel.reflectance(no, s.eta)) * diffuse;
@@ -85,7 +85,7 @@ Vec3 spreadingBsdf(const Surfel& s, const Vec3& w_i, const Vec3& w_o) {
   const double ni = glm::dot(s.n, w_i);
   const Vec3 h = glm::normalize(w_i + w_o);
   const double oh = glm::dot(w_o, h);
-  const double lobe = microfacets(alphaOf(s), glm::dot(s.n, h), ni, no);
+  const double lobe = withoutGloss && s.glossy ? 0.0 : microfacets(alphaOf(s), glm::dot(s.n, h), ni, no);
   const Vec3 dielectric = schlick(s.fresnel.f0, s.fresnel.f90, oh);
   const Vec3 metal = schlick(s.baseColor, Vec3(1), oh);
   return (1 - s.metallic) * ((1 - maxComponent(dielectric)) * diffuse + dielectric * lobe) +

@@ -9,7 +9,8 @@
 namespace whittle::reference {
 
 /// BSDF for light from w_i (unit, on the viewer's side), 1/sr, without impulses and without coverage.
-Vec3 spreadingBsdf(const Surfel& surfel, const Vec3& w_i, const Vec3& w_o);
+/// `withoutGloss`: what a glossy surfel's impulses have is left out.
+Vec3 spreadingBsdf(const Surfel& surfel, const Vec3& w_i, const Vec3& w_o, bool withoutGloss = false);
 
 /// The delta part of the BSDF: all light goes one way.
 struct Impulse {

@@ -1,6 +1,7 @@
 // The recursion: Li and Lo of README.md, shadow rays, impulses.
 #include "reference/trace.h"
 
+#include <algorithm>
 #include <array>
 
 #include "reference/camera.h"
@@ -30,14 +31,38 @@ Vec2 squareOf(const World& world, const Sample& sample, std::uint32_t dimension)
                         dimension, s.seed);
 }
 
+/// By a point of a triangle that glows, chosen by its power.
+LightSample emitterFor(const World& world, const Vec3& point, Vec2 u) {
+  if (world.emitters.empty()) return {Vec3(0), 0, Vec3(0)};
+  const auto chosen = std::find_if(world.emitters.begin(), world.emitters.end() - 1,
+                                   [&](const Emitter& e) { return u.x < static_cast<double>(e.until); });
+  const double begin = chosen == world.emitters.begin() ? 0.0 : static_cast<double>((chosen - 1)->until);
+  const double root = std::sqrt((u.x - begin) / (static_cast<double>(chosen->until) - begin));
+  const Vec3 weights(1 - root, root * (1 - u.y), root * u.y);
+  const auto [p0, p1, p2] = world.triangles.corners(chosen->triangle);
+  const Vec3 towards = weights.x * p0 + weights.y * p1 + weights.z * p2 - point;
+  const double distance = glm::length(towards);
+  if (!(distance > 0)) return {Vec3(0), 0, Vec3(0)};
+  const Ray ray{point, towards / distance};
+  const Surfel there =
+      makeSurfel(world.scene, world.settings, world.triangles, ray, {distance, chosen->triangle, weights});
+  const double facing = -glm::dot(there.facing, ray.direction);
+  if (!(facing > 0)) return {ray.direction, distance, Vec3(0)};
+  return {ray.direction, distance,
+          there.alpha * there.emission *
+              (facing * static_cast<double>(chosen->inverseDensity) / square(distance))};
+}
+
 /// The light with that index, by the point of it that is this sample's at this step.
 LightSample lightFor(const World& world, const Sample& sample, const Step& step, std::size_t index,
                      const Vec3& point) {
   const Light& light = world.scene.lights[index];
   const LightSample middle = sampleLight(light, point);
-  if (!hasSize(light, world.settings)) return middle;
+  const bool isSurface = light.kind == LightKind::Surface;
+  if (!isSurface && !hasSize(light, world.settings)) return middle;
   const std::uint32_t dimension =
       kLightDimension + 8 * (roundOf(step) + kRounds * static_cast<std::uint32_t>(index));
+  if (isSurface) return emitterFor(world, point, squareOf(world, sample, dimension));
   return spread(light, middle, world.settings, squareOf(world, sample, dimension));
 }
 
@@ -49,7 +74,8 @@ Vec3 directLight(const World& world, const Sample& sample, const Step& step, con
     const auto [w_i, distance, biradiance] = lightFor(world, sample, step, i, surfel.position);
     const double cosine = glm::dot(surfel.n, w_i);
     if (!(cosine > 0 && glm::dot(surfel.facing, w_i) > 0)) continue;
-    const Vec3 unshadowed = surfel.alpha * spreadingBsdf(surfel, w_i, w_o) * biradiance * cosine;
+    const Vec3 unshadowed = surfel.alpha * spreadingBsdf(surfel, w_i, w_o, light.kind == LightKind::Surface) *
+                            biradiance * cosine;
     if (isDark(unshadowed)) continue;
     if (light.castsShadows && world.settings.shadows) {
       ++sample.rays.shadow;

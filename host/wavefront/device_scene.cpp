@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "kernels/shared/layout.h"
+#include "scene/emitters.h"
 #include "scene/free_array.h"
 #include "scene/machine_memory.h"
 #include "scene/material_predicates.h"
@@ -25,7 +26,7 @@ static_assert(sizeof(device::Node) == sizeof(TreeNode));
 static_assert(sizeof(device::DeviceTriangle) == 48);
 static_assert(sizeof(device::DeviceLight) == 64);
 static_assert(sizeof(device::DeviceTexture) == 52);
-static_assert(sizeof(device::DeviceCamera) == 128);
+static_assert(sizeof(device::DeviceCamera) == 176);
 
 /// Texture slots and texels of the images they use, shared where two slots are the same or read
 /// the same image.
@@ -195,7 +196,18 @@ std::vector<float> srgbTable() {
   return table;
 }
 
-std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const PrunedScene& pruned) {
+/// emittersOf with the places of their triangles in leaf order.
+std::vector<device::DeviceEmitter> emittersToDevice(const Scene& scene,
+                                                    const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> leafOf(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) leafOf[order[i]] = i;
+  std::vector<device::DeviceEmitter> out;
+  for (const Emitter& e : emittersOf(scene)) out.push_back({leafOf[e.triangle], e.until, e.inverseDensity});
+  return out;
+}
+
+std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const PrunedScene& pruned,
+                                                std::size_t emitters) {
   std::vector<device::DeviceLight> out;
   const auto versine = [](double angle) {
     const double s = std::sin(0.5 * angle);
@@ -213,6 +225,7 @@ std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const Pruned
     d.versineOuter = versine(l.outerConeAngle);
     d.versineInner = versine(l.innerConeAngle);
     d.index = i;
+    d.emitters = static_cast<std::uint32_t>(emitters);
     out.push_back(d);
   }
   return out;
@@ -338,7 +351,10 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
     d.texels = atlas.upload(compute, consumed);
     d.linearFromSrgb = compute.upload("linearFromSrgb", srgbTable());
   }
-  const auto lights = lightsToDevice(scene, pruned);
+  std::vector<device::DeviceEmitter> emitters;
+  if (features.has(Feature::SURFACE_LIGHTS)) emitters = emittersToDevice(scene, tree.order);
+  if (!emitters.empty()) d.emitters = compute.upload("emitters", emitters);
+  const auto lights = lightsToDevice(scene, pruned, emitters.size());
   d.lightCount = static_cast<std::uint32_t>(lights.size());
   d.lights = compute.upload("lights", lights);
   if (features.has(Feature::BACKGROUND_MAP))

@@ -62,6 +62,7 @@
 #define BIT_LIGHT_SIZE 53                  // lights of some size
 #define BIT_LENS 54                        // thin lens
 #define BIT_GLOSS 55                       // glossy impulses
+#define BIT_SURFACE_LIGHTS 56              // surface lights
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

@@ -99,8 +99,15 @@ WHITTLE_STRUCT(DeviceLight) {
   uint castsShadows;
   float versineOuter;  // 1 - cos of the half angles
   float versineInner;
-  uint index;  // in the scene
-  uint pad;
+  uint index;     // in the scene
+  uint emitters;  // of a surface light
+};
+
+// A triangle that glows, see host/scene/emitters.h.
+WHITTLE_STRUCT(DeviceEmitter) {
+  uint triangle;  // in leaf order
+  float until;
+  float inverseDensity;  // m²
 };
 
 // Vectors are four floats apart: a compiler loads the fourth along, and the bits of a small integer there

@@ -9,20 +9,6 @@
 namespace whittle::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-/// One pixel, `samples` rays into the origin from right above, of which the floor makes Lambert's E/π.
-double irradiance(Scene scene, Settings settings, int samples) {
-  addFloor(scene, lambert(glm::vec3(1)), 0);
-  Camera camera = lookingDown();
-  camera.ymag = 1e-6F;  // one place, whatever the sample's place in the pixel
-  scene.cameras = {camera};
-  settings.width = settings.height = 1;
-  settings.bounces = 1;
-  settings.raysPerPixel = samples;
-  return static_cast<double>(colorOf(renderOnDevice(scene, settings)).x) * kPi;
-}
-
 Settings sized(float radius, float angle, Sampler sampler = Sampler::Sobol) {
   Settings settings;
   settings.lightRadius = radius;
@@ -31,7 +17,7 @@ Settings sized(float radius, float angle, Sampler sampler = Sampler::Sobol) {
   return settings;
 }
 
-Light sun(const glm::vec3& direction, float intensity) {
+Light sunAlong(const glm::vec3& direction, float intensity) {
   Light light;
   light.kind = LightKind::Directional;
   light.direction = glm::normalize(direction);
@@ -48,35 +34,36 @@ TEST(LightSize, ASphereAboveTheHorizonGivesWhatItsMiddleWould) {
       scene.lights = {pointLight({2, 1.5F, 0}, 10)};
       const double d2 = 2.0 * 2 + 1.5 * 1.5, expected = 10 * 1.5 / std::sqrt(d2) / d2;
       const double tolerance = sampler == Sampler::Random ? 1e-2 : 1e-3;  // 1/sqrt(4096) of the spread
-      EXPECT_NEAR(irradiance(scene, sized(radius, 0, sampler), 4096) / expected, 1, tolerance) << radius;
+      EXPECT_NEAR(irradianceAtOrigin(scene, sized(radius, 0, sampler), 4096) / expected, 1, tolerance)
+          << radius;
     }
 }
 
 TEST(LightSize, ASunAboveTheHorizonGivesWhatItsMiddleWould) {
   for (const float angle : {0.53F, 20.0F, 80.0F}) {
     Scene scene;
-    scene.lights = {sun({-1, -1, 0}, 3)};
-    EXPECT_NEAR(irradiance(scene, sized(0, angle), 4096) / (3 * std::sqrt(0.5)), 1, 1e-3) << angle;
+    scene.lights = {sunAlong({-1, -1, 0}, 3)};
+    EXPECT_NEAR(irradianceAtOrigin(scene, sized(0, angle), 4096) / (3 * std::sqrt(0.5)), 1, 1e-3) << angle;
   }
 }
 
 /// A sky of one radiance: half of it under the horizon of a floor that stands on edge to its middle.
 TEST(LightSize, AHemisphereOnTheHorizonIsHalfSeen) {
   Scene scene;
-  scene.lights = {sun({-1, 0, 0}, 1)};
+  scene.lights = {sunAlong({-1, 0, 0}, 1)};
   // 180°: a hemisphere of radiance L = E/π about the horizontal; of cosine-weighted sky above the floor it
   // covers half: E = L π / 2 = 1/2.
-  EXPECT_NEAR(irradiance(scene, sized(0, 180), 16384), 0.5, 2e-3);
+  EXPECT_NEAR(irradianceAtOrigin(scene, sized(0, 180), 16384), 0.5, 2e-3);
 }
 
 /// A wall's edge through the line from the floor to the lamp's middle hides half of it.
 TEST(LightSize, AnEdgeBeforeTheMiddleHidesHalf) {
   for (const bool isSun : {false, true}) {
     Scene scene;
-    scene.lights = {isSun ? sun({0, -1, 0}, 8) : pointLight({0, 4, 0}, 8)};
+    scene.lights = {isSun ? sunAlong({0, -1, 0}, 8) : pointLight({0, 4, 0}, 8)};
     const double open = isSun ? 8 : 8.0 / 16;
     addQuad(scene, addMaterial(scene, lambert(glm::vec3(0))), {0, 2, -50}, {0, 0, 100}, {50, 0, 0});
-    const double seen = irradiance(scene, sized(1, 20), 4096);
+    const double seen = irradianceAtOrigin(scene, sized(1, 20), 4096);
     EXPECT_NEAR(seen / open, 0.5, 2e-3);
   }
 }
@@ -101,7 +88,8 @@ TEST(LightSize, ShadowsHavePenumbras) {
   double before = 0;
   for (std::size_t x = 0; x < 2001; x += 40) {
     const double now = static_cast<double>(colorOf(soft, x).x);
-    const double open = 8 * 4 / std::pow(16 + std::pow((static_cast<double>(x) - 1000) * 1e-3, 2), 1.5) / kPi;
+    const double open =
+        8 * 4 / std::pow(16 + std::pow((static_cast<double>(x) - 1000) * 1e-3, 2), 1.5) / std::numbers::pi;
     between += now > 0.02 * open && now < 0.98 * open;
     rises += now < before - 0.02 * open;
     before = now;
@@ -114,7 +102,7 @@ TEST(LightSize, ShadowsHavePenumbras) {
 TEST(LightSize, NothingInsideALampAndNothingWithoutASize) {
   Scene scene;
   scene.lights = {pointLight({0, 0.5F, 0}, 10)};
-  EXPECT_EQ(irradiance(scene, sized(0.6F, 0), 16), 0);
+  EXPECT_EQ(irradianceAtOrigin(scene, sized(0.6F, 0), 16), 0);
   Settings settings = smallSettings(4);
   const Scene box = ownScene("cornell_box");
   const RenderResult plain = renderOnDevice(box, settings);
@@ -129,7 +117,7 @@ TEST(LightSize, AgreesWithTheReference) {
   for (const Sampler sampler : {Sampler::Random, Sampler::Stratified, Sampler::Sobol})
     for (const char* name : {"cornell_box", "nested_glass"}) {
       Scene scene = ownScene(name);
-      scene.lights.push_back(sun({0.2F, -1, -0.3F}, 0.5F));
+      scene.lights.push_back(sunAlong({0.2F, -1, -0.3F}, 0.5F));
       Settings settings = wholeSettings(5);
       settings.lightRadius = 0.05F, settings.sunAngle = 4;
       settings.sampler = sampler;

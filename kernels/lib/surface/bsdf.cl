@@ -53,8 +53,9 @@ INLINE Real microfacetAlpha(const Surfel* s) {
   return squared > 1e-3f ? squared : (Real)(1e-3f);
 }
 
-/// f(w_i, w_o), 1/sr, without impulses; both directions on the side of n.
-INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i) {
+/// f(w_i, w_o), 1/sr, without impulses; both directions on the side of n. light: LIGHT_…, since what glossy surfaces
+/// reflect of surfaces that glow is in their impulses.
+INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i, uint light) {
   const Real cosO = dot3(s->n, w_o);
   const Real dielectric = 1.0f - s->metallic;
   const Real3 diffuse = scale3(1.0f - s->transmission, scale3((Real)(1.0f / PI), s->baseColor));
@@ -72,7 +73,10 @@ INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s,
     const Real distribution = a2 / (PI * k * k);
     const Real visibility = 0.5f /
                             (cosI * sqrt(a2 + (1.0f - a2) * cosO * cosO) + cosO * sqrt(a2 + (1.0f - a2) * cosI * cosI));
-    const Real lobe = distribution * visibility;
+    Real lobe = distribution * visibility;
+#if HAS(GLOSS) && HAS(SURFACE_LIGHTS)
+    if (light == LIGHT_SURFACE) lobe = isGlossy(constants, s) ? (Real)(0.0f) : lobe;
+#endif
     const Real3 fresnel = schlick(s->specularF0, real3(s->specularF90, s->specularF90, s->specularF90), cosD);
     const Real largest = largestOfThree(fresnel.x, fresnel.y, fresnel.z);
     f = scale3(dielectric, add3(scale3(1.0f - largest, diffuse), scale3(lobe, fresnel)));

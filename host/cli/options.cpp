@@ -227,7 +227,7 @@ void settleFocus(const SceneOptions& options, const Scene& scene, Settings& sett
   const auto place = [](int pixel, int size) { return (pixel + 0.5) / size; };
   double x = 0.5, y = 0.5;
   if (options.focus) {
-    const auto [column, row] = *options.focus;
+    const int column = options.focus->x, row = options.focus->y;
     if (column >= settings.width || row >= settings.height)
       throw InputError(fmt::format("--focus-pixel: {},{} is outside the picture of {}×{}", column, row,
                                    settings.width, settings.height));

@@ -123,6 +123,7 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
                               0.0, 1.0),
       .transmission = transmissionAt(scene, material, hit),
       .smooth = false,
+      .glossy = false,
       .volume = material.volume,
       .unlit = material.unlit,
       .fresnel = fresnelAt(scene, material, hit),

@@ -45,7 +45,7 @@ LightSample emitterFor(const World& world, const Vec3& point, Vec2 u) {
   if (!(distance > 0)) return {Vec3(0), 0, Vec3(0)};
   const Ray ray{point, towards / distance};
   const Surfel there =
-      makeSurfel(world.scene, world.settings, world.triangles, ray, {distance, chosen->triangle, weights});
+      makeSurfel(world.scene, world.settings, world.triangles, ray, {chosen->triangle, distance, weights});
   const double facing = -glm::dot(there.facing, ray.direction);
   if (!(facing > 0)) return {ray.direction, distance, Vec3(0)};
   return {ray.direction, distance,

@@ -7,26 +7,16 @@
 
 #include "reference/bsdf.h"
 #include "reference/sampler.h"
+#include "support/probe.h"
 
 namespace whittle::test {
 namespace {
 
 using reference::kPi;
-using reference::Vec2;
-using reference::Vec3;
 
-/// A white metal with that roughness, its normal tilted off every axis.
+/// Its normal is tilted off every axis.
 reference::Surfel whiteMetal(double roughness) {
-  reference::Surfel s{};
-  s.n = s.facing = glm::normalize(Vec3(0.3, 0.8, -0.5));
-  s.baseColor = Vec3(1);
-  s.metallic = 1;
-  s.roughness = roughness;
-  s.alpha = 1;
-  s.eta = 1.5;
-  s.front = true;
-  s.glossy = true;
-  return s;
+  return whiteMetalAt(glm::normalize(Vec3(0.3, 0.8, -0.5)), roughness);
 }
 
 /// A direction at that angle to the surfel's normal, turned about it.

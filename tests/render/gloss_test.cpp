@@ -37,10 +37,7 @@ TEST(DeviceGloss, AWhiteSkyGivesTheAlbedoOfTheLobe) {
       settings.glossy = true;
       const double seen = static_cast<double>(colorOf(renderOnDevice(scene, settings)).x);
 
-      reference::Surfel s{};
-      s.n = s.facing = {0, 1, 0};
-      s.baseColor = reference::Vec3(1);
-      s.metallic = 1, s.roughness = static_cast<double>(roughness), s.alpha = 1, s.eta = 1.5;
+      const reference::Surfel s = whiteMetalAt({0, 1, 0}, static_cast<double>(roughness));
       double albedo = 0;
       constexpr int kSteps = 800;
       for (int a = 0; a < kSteps; ++a)

@@ -153,7 +153,8 @@ INLINE Real smithRoot(const Surfel* s, Real3 w) {
 /// What is left of a reflection along a sampled normal, G2/G1 of height-correlated Smith; 0 below the surface.
 INLINE Real reflectionWeight(const Surfel* s, Real3 w_o, Real3 w_i) {
   const Real o = smithRoot(s, w_o), i = smithRoot(s, w_i);
-  return (dot3(s->n, w_i) > 0.0f) & (dot3(s->n_g, w_i) > 0.0f) ? (1.0f + o) / (o + i) : (Real)(0.0f);
+  const Mask above = (dot3(s->n, w_i) > 0.0f) & (dot3(s->n_g, w_i) > 0.0f);
+  return above ? (1.0f + o) / (o + i) : (Real)(0.0f);
 }
 #endif
 

@@ -70,6 +70,30 @@ INLINE Natural samplePixels(const DeviceCamera* camera, const Batch* batch, uint
   return LOAD(packed);
 }
 
+#if HAS(LENS)
+/// Where the samples' rays go through the lens, m from its middle, evenly over its disk; in a square of their own,
+/// LENS_DIMENSION on.
+#define LENS_DIMENSION 8u
+
+INLINE Real3 lensPoints(const DeviceCamera* camera, const Batch* batch, uint slot, uint count,
+                        __global const uint* pixelOrder) {
+  float x[LANES], y[LANES];
+  for (uint k = 0; k < LANES; ++k) {
+    const uint own = slot + k < count ? slot + k : count - 1;
+    const uint packed = pixelOrder[batch->firstPixel + own / batch->samples];
+    const float2 at = sampleSquare(camera->sampler, (packed >> 16) * camera->width + (packed & 0xffffu),
+                                   batch->firstSample + own % batch->samples, camera->raysPerPixel, LENS_DIMENSION,
+                                   camera->seed);
+    x[k] = at.x, y[k] = at.y;
+  }
+  const Real radius = camera->lensRadius * sqrt(LOAD(x));
+  Real cosine, sine;
+  aroundCircle(LOAD(y), &cosine, &sine);
+  return add3(scale3(radius * cosine, same3((float3)(camera->right[0], camera->right[1], camera->right[2]))),
+              scale3(radius * sine, same3((float3)(camera->up[0], camera->up[1], camera->up[2]))));
+}
+#endif
+
 __kernel void raygen(
     const DeviceCamera camera, const Batch batch, const uint count, const uint capacity,
     __global const uint* pixelOrder,  // [pixels of the picture] y << 16 | x along a space-filling order
@@ -109,6 +133,18 @@ __kernel void raygen(
   } else
 #endif
     d = leastTurned(high, low);
+#if HAS(LENS)
+  if (own.lensRadius > 0.0f) {
+    // All that goes through a point of the plane in focus, from where on the lens it leaves.
+    const Real3 lens = lensPoints(&own, &ownBatch, slot, count, pixelOrder);
+    Real3 ahead = real3(high.x + low.x, high.y + low.y, high.z + low.z);
+#if HAS(ORTHOGRAPHIC)
+    if (camera.orthographic) ahead = d;
+#endif
+    d = normalize3(sub3(scale3((Real)(own.focusDistance), ahead), lens));
+    o = add3(o, lens);
+  }
+#endif
   storeReal3(rays, capacity, RAY_O, slot, o);
   storeReal3(rays, capacity, RAY_D, slot, d);
 #if HAS(NEAR_PLANE)

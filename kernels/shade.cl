@@ -8,7 +8,7 @@
 #include "lib/surface/ray_offset.cl"
 #include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
-#include "lib/surface/light.cl"
+#include "lib/surface/emitters.cl"
 #include "lib/sampler.cl"
 
 /// exp(-sigma t), 1 where sigma is 0; lane by lane, since exp of a vector may round otherwise.
@@ -53,21 +53,80 @@ INLINE Real3 backgroundAlong(const SceneView* scene, const RenderConstants* cons
 }
 #endif
 
+/// What the entries' samples are called.
+typedef struct {
+  uint place[LANES];  // in the pixel order's plane: y width + x
+  uint sample[LANES];
+} SampleNames;
+
+INLINE SampleNames sampleNames(const Batch* batch, uint width, __global const uint* pixelOrder,
+                               __global const float* rays, uint capacity, uint entry, uint active) {
+  SampleNames names;
+  for (uint k = 0; k < LANES; ++k) {
+    const uint own = entry + (k < active ? k : active - 1);
+#if HAS(IMPULSES)
+    const uint slot = as_uint(rays[(size_t)RAY_SLOT * capacity + own]);
+#else
+    const uint slot = own;
+#endif
+    const uint packed = pixelOrder[batch->firstPixel + slot / batch->samples];
+    names.place[k] = (packed >> 16) * width + (packed & 0xffffu);
+    names.sample[k] = batch->firstSample + slot % batch->samples;
+  }
+  return names;
+}
+
+
+/// Where the entries' samples lie in the square whose dimensions begin at `dimension`.
+INLINE Square sampleSquares(const RenderConstants* constants, const SampleNames* names, uint dimension) {
+  float u[LANES], v[LANES];
+  for (uint k = 0; k < LANES; ++k) {
+    const float2 at = sampleSquare(constants->sampler, names->place[k], names->sample[k], constants->raysPerPixel,
+                                   dimension, constants->seed);
+    u[k] = at.x, v[k] = at.y;
+  }
+  const Square square = {LOAD(u), LOAD(v)};
+  return square;
+}
+
+// Dimensions of squares, behind those of pixel, lens and chosen impulses: of the microfacets at each bounce, then of
+// each light at each bounce.
+#define SQUARE_DIMENSIONS 8u
+#define GLOSS_DIMENSION 0x10000u
+#define LIGHT_DIMENSION 0x40000u
+#define ROUNDS 8192u  // more than bounces and passages straight on together
+
+#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS)
+#define LIGHT_NAMES (&names)
+#else
+#define LIGHT_NAMES 0
+#endif
+
 #if HAS(LIGHTS)
 /// Direct light from one light where `lit`: a shadow candidate, or added to `radiance` at once where nothing can be in
-/// the way. Returns ENTRY_SHADOW for a candidate, else 0.
+/// the way. names: of the entries, where the light is sampled. Returns ENTRY_SHADOW for a candidate, else 0.
 INLINE Natural directLight(const SceneView* scene, const RenderConstants* constants, const Surfel* s, Real3 w_o,
                            Mask lit, uint lightIndex, Real3 attenuation, uint i, uint capacity, __global float* shadows,
-                           Real3* radiance) {
+                           Real3* radiance, const SampleNames* names, uint bounce) {
 #if HAS(UNLIT)
   lit = lit & ((s->flags & MATERIAL_UNLIT) == 0);
 #endif
   __global const DeviceLight* light = scene->lights + lightIndex;
-  const Illumination arriving = illuminationAt(light, s->position);
+  Illumination arriving = illuminationAt(light, s->position);
+#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS)
+  const uint dimension = LIGHT_DIMENSION + SQUARE_DIMENSIONS * (bounce + ROUNDS * light->index);
+  const Square square = sampleSquares(constants, names, dimension);
+#if HAS(LIGHT_SIZE)
+  arriving = spread(light, constants, &arriving, square);
+#endif
+#if HAS(SURFACE_LIGHTS)
+  if (light->kind == LIGHT_SURFACE) arriving = emitterIllumination(scene, light->emitters, s->position, square);
+#endif
+#endif
   const Real cosine = dot3(s->n, arriving.w_i);
   lit = lit & (cosine > 0.0f) & (dot3(s->n_g, arriving.w_i) > 0.0f) & notDark(arriving.biradiance);
   if (!some(lit)) return (Natural)(0);
-  const Real3 f = finiteScattering(constants, s, w_o, arriving.w_i);
+  const Real3 f = finiteScattering(constants, s, w_o, arriving.w_i, light->kind);
   const Real3 contribution = scale3(cosine, mul3(scale3(s->alpha, f), arriving.biradiance));
   lit = lit & notDark(contribution);
   const Real3 carried = mul3(contribution, attenuation);
@@ -169,31 +228,6 @@ INLINE Impulse existing(const Impulse* first, const Impulse* second) {
 }
 #endif
 
-#if HAS(AOVS) || HAS(ONE_IMPULSE)
-/// What the entries' samples are called.
-typedef struct {
-  uint place[LANES];  // in the pixel order's plane: y width + x
-  uint sample[LANES];
-} SampleNames;
-
-INLINE SampleNames sampleNames(const Batch* batch, uint width, __global const uint* pixelOrder,
-                               __global const float* rays, uint capacity, uint entry, uint active) {
-  SampleNames names;
-  for (uint k = 0; k < LANES; ++k) {
-    const uint own = entry + (k < active ? k : active - 1);
-#if HAS(IMPULSES)
-    const uint slot = as_uint(rays[(size_t)RAY_SLOT * capacity + own]);
-#else
-    const uint slot = own;
-#endif
-    const uint packed = pixelOrder[batch->firstPixel + slot / batch->samples];
-    names.place[k] = (packed >> 16) * width + (packed & 0xffffu);
-    names.sample[k] = batch->firstSample + slot % batch->samples;
-  }
-  return names;
-}
-#endif
-
 #if HAS(ONE_IMPULSE)
 INLINE Real randomNumber(const SampleNames* names, uint dimension, uint seed) {
   float own[LANES];
@@ -248,7 +282,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #else
   const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
 #endif
-#if HAS(AOVS) || HAS(ONE_IMPULSE)
+#if HAS(AOVS) || HAS(ONE_IMPULSE) || HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(GLOSS)
   const Batch ownBatch = batch;
   const uint active = count - i < LANES ? count - i : LANES;
   const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays, capacity, first + i, active);
@@ -281,11 +315,17 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #endif
 #if HAS(LIGHTS)
     if (lights)
-      found = found | directLight(&scene, &own, &s, w_o, a.hit, 0, attenuation, i, capacity, shadows, &shaded);
+      found = found | directLight(&scene, &own, &s, w_o, a.hit, 0, attenuation, i, capacity, shadows, &shaded,
+                                  LIGHT_NAMES, bounce);
 #endif
 #if HAS(IMPULSES)
     Impulse one, two;
-    impulsesAt(&own, &s, w_o, &one, &two);
+#if HAS(GLOSS)
+    const Square facets = sampleSquares(&own, &names, GLOSS_DIMENSION + SQUARE_DIMENSIONS * bounce);
+#else
+    const Square facets = {(Real)(0.0f), (Real)(0.0f)};
+#endif
+    impulsesAt(&own, &s, w_o, facets, &one, &two);
     shaded = spoiltBy(shaded, add3(one.magnitude, two.magnitude));
 #if HAS(ONE_IMPULSE)
     chooseOne(&one, &two, randomNumber(&names, 16u + bounce, own.seed));
@@ -314,8 +354,9 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 }
 
 #if HAS(LIGHTS)
-__kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const uint first, const uint count,
-                          const uint capacity, const uint bounce, const uint light, __global const float* rays,
+__kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const Batch batch, const uint first,
+                          const uint count, const uint capacity, const uint bounce, const uint light,
+                          const uint width, __global const uint* pixelOrder, __global const float* rays,
                           __global const float* hits, __global float* entryRadiance, __global float* shadows,
                           __global uchar* flags) {
   const uint i = (uint)get_global_id(0) * LANES;
@@ -335,10 +376,16 @@ __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const u
 #endif
   Natural found = (Natural)(0);
   if (some(a.hit)) {
+#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS)
+    const Batch ownBatch = batch;
+    const uint active = count - i < LANES ? count - i : LANES;
+    const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays, capacity, first + i, active);
+#endif
     const Surfel s = surfelAt(&scene, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
     const Real3 attenuation = absorptionAlong(&s, distanceInside(&a));
     Real3 radiance = loadReal3(entryRadiance, capacity, 0, i);
-    found = directLight(&scene, &own, &s, minus3(a.d), a.hit, light, attenuation, i, capacity, shadows, &radiance);
+    found = directLight(&scene, &own, &s, minus3(a.d), a.hit, light, attenuation, i, capacity, shadows, &radiance,
+                        LIGHT_NAMES, bounce);
     storeReal3(entryRadiance, capacity, 0, i, radiance);
   }
   if (flags) storeFlags((loadFlags(flags + i) & ~ENTRY_SHADOW) | found, flags + i);

@@ -49,6 +49,7 @@ float automaticAmbient(const Scene& scene) {
   const Sphere bounds = boundsOf(scene);
   glm::dvec3 irradiance(0);
   for (const Light& light : scene.lights) {
+    if (light.kind == LightKind::Surface) continue;  // it is not known how near they are
     if (light.kind == LightKind::Directional) {
       irradiance += glm::dvec3(light.intensity);
       continue;

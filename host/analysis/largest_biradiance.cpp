@@ -9,6 +9,8 @@
 #include <array>
 #include <limits>
 
+#include "scene/light_size.h"
+
 namespace whittle {
 namespace {
 
@@ -108,11 +110,20 @@ std::vector<double> nearestHits(const Scene& scene, const std::vector<Run>& runs
 
 }  // namespace
 
-std::vector<glm::dvec3> largestBiradiance(const Scene& scene) {
+std::vector<glm::dvec3> largestBiradiance(const Scene& scene, const Settings& settings) {
   std::vector<glm::dvec3> sums(scene.materials.size(), glm::dvec3(0));
   const std::vector<Run> runs = runsOf(scene);
   for (const Light& light : scene.lights) {
-    const glm::dvec3 intensity = glm::abs(glm::dvec3(light.intensity));
+    if (light.kind == LightKind::Surface) {  // beside an edge that glows there is no end to it
+      for (auto& sum : sums) sum = glm::dvec3(kInfinity);
+      continue;
+    }
+    // A light of some size is sampled evenly in solid angle: near a sphere that is up to twice what its
+    // middle would send, and nothing inside it.
+    const double spread = !hasSize(light, settings)     ? 1.0
+                          : typeOf(light.kind).isPlaced ? 2.0
+                                                        : 2.0 / (2.0 - sunVersine(settings));
+    const glm::dvec3 intensity = spread * glm::abs(glm::dvec3(light.intensity));
     if (!typeOf(light.kind).isPlaced) {
       for (auto& sum : sums) sum += intensity;
       continue;

@@ -53,6 +53,7 @@ struct Surface {
   Interval metallic{0, 0}, transmission{0, 0};
   double specular = 0;
   bool smooth = false, rough = false, volume = false, blends = false;
+  bool glossy = false;     ///< where it is rough it sends out impulses too
   bool turnsRays = false;  ///< sends out impulses that do not go straight on
 };
 
@@ -91,7 +92,8 @@ Surface surfaceOf(const Material& m, const Settings& settings, const glm::dvec3&
   s.transmission = rangeOf(m.transmission, m.transmissionTexture.used());
   s.specular = m.specular;
   s.volume = m.volume;
-  s.turnsRays = canReflect(m, mirrorRoughness) || refracts(m);
+  s.glossy = settings.glossy;
+  s.turnsRays = canReflect(m, reflectingRoughness(settings)) || refracts(m);
   const double least = std::max(roughness.low, s.smooth ? static_cast<double>(mirrorRoughness) : 0.0);
   const double ambient = settings.ambient.value_or(0.0F);
   const double lobe = largestLobe(std::max(least * least, 1e-3));
@@ -109,11 +111,13 @@ double returnedBySmooth(const Surface& s, int c, double metallic, double tau, do
   return times(1 - metallic, dielectric) + times(metallic * std::max(1.0, s.color[c]), L);
 }
 
-/// A rough one lets light through, and reflects what is totally reflected inside a solid.
+/// A rough one lets light through, and reflects what is totally reflected inside a solid, or with
+/// gloss everything.
 double returnedByRough(const Surface& s, int c, double metallic, double tau, double L) {
-  const bool reflects = s.volume && tau > 0;
+  const bool reflects = s.glossy || (s.volume && tau > 0);
   const double matte = times(1 - tau, s.matte[c]);
-  const double scattered = std::max(matte, times(1 - s.specular, matte) + times(s.specular, s.highlight[c]));
+  const double lobe = s.highlight[c] + (s.glossy ? L : 0);  // its share of the light is one and the same
+  const double scattered = std::max(matte, times(1 - s.specular, matte) + times(s.specular, lobe));
   const double through = times(std::max(tau * s.color[c], reflects ? 1.0 : 0.0), L);
   const double metal = std::max(1.0, s.color[c]) * (s.highlight[c] + (reflects ? L : 0));
   return times(1 - metallic, scattered + through) + times(metallic, metal);
@@ -140,7 +144,7 @@ std::vector<Surface> surfacesOf(const Scene& scene, const Settings& settings) {
   if (least != glm::dvec3(0)) vertexColor = least;  // not usual
   std::vector<bool> used(scene.materials.size(), false);
   for (const Triangle& t : scene.triangles) used[t.material] = true;
-  const std::vector<glm::dvec3> biradiance = largestBiradiance(scene);
+  const std::vector<glm::dvec3> biradiance = largestBiradiance(scene, settings);
   std::vector<Surface> surfaces;
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     if (used[i]) surfaces.push_back(surfaceOf(scene.materials[i], settings, vertexColor, biradiance[i]));

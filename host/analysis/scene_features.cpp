@@ -10,6 +10,7 @@
 
 #include "analysis/feature_needs.h"
 #include "scene/camera.h"
+#include "scene/light_size.h"
 #include "scene/material_predicates.h"
 
 namespace whittle {
@@ -65,7 +66,11 @@ class Needs {
   bool anyMaterial(bool (*asked)(const Material&, float)) const {
     return anyMaterial([&](const Material& m) { return asked(m, settings.mirrorRoughness); });
   }
-  bool bounces() const { return settings.bounces > 1 && anyMaterial(canSendImpulses); }
+  /// The same of what sends out impulses.
+  bool anyReflecting(bool (*asked)(const Material&, float)) const {
+    return anyMaterial([&](const Material& m) { return asked(m, reflectingRoughness(settings)); });
+  }
+  bool bounces() const { return settings.bounces > 1 && anyReflecting(canSendImpulses); }
   bool straight() const { return anyMaterial(goesStraightOn); }
   /// Null in scenes by hand that have none.
   const Camera* camera() const {
@@ -79,7 +84,7 @@ class Needs {
     return settings.shadows && lit() && anyLight([](const Light& l) { return l.castsShadows; });
   }
   bool twoImpulses() const {
-    return directsImpulses() && settings.impulses == ImpulseMode::All && anyMaterial(canSendTwoImpulses);
+    return directsImpulses() && settings.impulses == ImpulseMode::All && anyReflecting(canSendTwoImpulses);
   }
   const Image& imageOf(const TextureSlot& slot) const {
     return scene.images[pruned.images[static_cast<std::size_t>(slot.image)]];
@@ -146,7 +151,8 @@ std::vector<Question> lightTypeQuestions(const Needs& n) {
   for (const LightType& type : kLightTypes)
     questions.push_back({featureOf(type.kind),
                          n.anyLight([&](const Light& l) { return l.kind == type.kind; }),
-                         fmt::format("no {} light", type.word)});
+                         fmt::format("no {} light", type.word),
+                         type.kind == LightKind::Surface});  // a second surfel at each hit: long to compile
   return questions;
 }
 
@@ -160,6 +166,8 @@ std::vector<Question> lightQuestions(const Needs& n) {
        !n.settings.shadows},
       {F::FILTERED_SHADOWS, n.shadows() && n.anyMaterial(filters),
        "no surface that casts a shadow lets light through"},
+      {F::LIGHT_SIZE, n.anyLight([&](const Light& l) { return hasSize(l, n.settings); }),
+       "lights are points and directions", true},
       {F::LIGHT_RANGE, n.anyLight([](const Light& l) { return std::isfinite(l.range); }),
        "no light has a range"},
       {F::MICROFACET, n.lit() && n.anyMaterial(canShowHighlight), "no rough surface shows a highlight"},
@@ -185,7 +193,9 @@ std::vector<Question> impulseQuestions(const Needs& n) {
       {F::ONE_SIDED, n.settings.backFaces == BackFaces::Cull && n.anyMaterial(showsFrontOnly),
        n.settings.backFaces == BackFaces::Cull ? "every surface has two sides" : "back faces are shown",
        true},
-      {F::MIRROR, some && n.anyMaterial(canReflect), some ? "no smooth material reflects" : none},
+      {F::MIRROR, some && n.anyReflecting(canReflect), some ? "no smooth material reflects" : none},
+      {F::GLOSS, some && n.settings.glossy && n.anyMaterial(canBeRough),
+       n.settings.glossy ? "no material is rough" : "rough surfaces show highlights alone", true},
       {F::REFRACTION, some && n.anyMaterial(refracts), "no transmitting material bounds a volume"},
       {F::ALPHA_MASK, n.anyMaterial(isMasked),
        n.pruned.pruning.needlessMasks > 0 ? "masks cut nothing out" : "no material is masked"},
@@ -217,6 +227,7 @@ std::vector<Question> cameraQuestions(const Needs& n) {
       {F::NEAR_PLANE, n.nearPlane, "nothing lies before the near plane", true},
       {F::FAR_PLANE, n.settings.clipFar && n.camera() && std::isfinite(n.camera()->zfar),
        n.settings.clipFar ? "the camera has no far plane" : "the far plane is not asked for", true},
+      {F::LENS, n.settings.aperture > 0.0F, "the camera is a pinhole", true},
       {F::FIXED_RAY_OFFSET, n.settings.rayOffset.has_value(), "the ray offset is derived at each hit"},
       {F::COVERAGE, n.settings.alpha, "no alpha channel was asked for", true},
       {F::AOVS, n.settings.aovs, "no auxiliary output was asked for", true},

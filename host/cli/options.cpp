@@ -10,6 +10,7 @@
 
 #include "analysis/ambient.h"
 #include "analysis/feature_needs.h"
+#include "analysis/focus.h"
 #include "cli/background.h"
 #include "cli/error_options.h"
 #include "cli/feature_names.h"
@@ -20,6 +21,7 @@
 #include "report/text.h"
 #include "scene/byte_counts.h"
 #include "scene/camera.h"
+#include "scene/emitters.h"
 #include "scene/input_error.h"
 #include "scene/machine_memory.h"
 
@@ -126,14 +128,39 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
           "0: trace them all");
   addWhole(c, "--rays-per-pixel", s.raysPerPixel, 1, 1 << 24, "N",
            "primary rays; 1 = through the pixel's centre");
+  addReal(c, "--aperture", s.aperture, 0, 1e18, "METRES",
+          "diameter of the camera's lens: what is nearer or farther than the focus is blurred",
+          "0: a pinhole");
+  o.focusPixel = addText(c, "--focus-pixel",
+                         [&o](const std::string& word) { o.focus = parsePixel("--focus-pixel", word); },
+                         {"X,Y", "focus on what is seen there, in pixels from the top left", "the middle"});
+  addText(c, "--focus-distance",
+          [&s](const std::string& word) {
+            s.focusDistance = parseRealOrAuto("--focus-distance", word, 1e-6, 1e18);
+          },
+          {"auto|METRES", "focus on this distance along the camera's axis", "auto: what the middle shows"})
+      ->excludes(o.focusPixel);
+  c.add_flag(
+      "--glossy,!--no-glossy", s.glossy,
+      "rough surfaces reflect and refract what is around them, blurred, from several rays per pixel on; "
+      "--mirror-roughness is 0.03 then unless it is given [off]");
+  c.add_flag(
+      "--area-lights,!--no-area-lights", s.areaLights,
+      "surfaces that glow light others, from several rays per pixel on; the scene gets no lights of ours "
+      "then [off]");
+  addReal(c, "--light-radius", s.lightRadius, 0, 1e18, "METRES",
+          "of every point and spot light: shadows get soft edges, from several rays per pixel on", "0");
+  addReal(c, "--sun-angle", s.sunAngle, 0, 180, "DEGREES",
+          "that every directional light fills, likewise; the sun fills 0.53", "0");
   c.add_flag("--shadows,!--no-shadows", s.shadows, "trace shadow rays [on]");
   addChoice(c, "--sampler", s.sampler, "where in the pixel its rays start");
   addWhole(c, "--seed", s.seed, 0, std::numeric_limits<std::uint32_t>::max(), "N", "of every random number");
   addChoice(c, "--impulses", s.impulses, "follow both branches of a surface, or one chosen at random");
   addReal(c, "--ray-offset,--bump", s.rayOffset, 0, 1e30, "METRES",
           "distance of a ray's origin from its surface", "from the rounding error of each hit");
-  addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R", "surfaces smoother than this are mirrors",
-          fmt::format("{}", s.mirrorRoughness));
+  o.mirrorRoughness =
+      addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R",
+              "surfaces smoother than this are mirrors", fmt::format("{}", s.mirrorRoughness));
 }
 
 void addDeviceOptions(CLI::App& c, Settings& s) {
@@ -196,6 +223,31 @@ void promisePicture(MemoryBudget& budget, const CommandCosts& costs, const Setti
                  MemoryBudget::Cause::CommandLine);
 }
 
+namespace {
+
+/// Surfaces smoother than this look like mirrors, glossy or not.
+constexpr float kGlossyMirrorRoughness = 0.03F;
+
+/// What a lens is focused on, where nobody gives a distance.
+void settleFocus(const SceneOptions& options, const Scene& scene, Settings& settings, Notices& notices) {
+  if (!(settings.aperture > 0.0F) || settings.focusDistance) return;
+  const auto place = [](int pixel, int size) { return (pixel + 0.5) / size; };
+  double x = 0.5, y = 0.5;
+  if (options.focus) {
+    const int column = options.focus->x, row = options.focus->y;
+    if (column >= settings.width || row >= settings.height)
+      throw InputError(fmt::format("--focus-pixel: {},{} is outside the picture of {}×{}", column, row,
+                                   settings.width, settings.height));
+    x = place(column, settings.width), y = place(row, settings.height);
+  }
+  const Camera& camera = scene.cameras[findCamera(scene, settings.camera)];
+  settings.focusDistance =
+      focusOn(scene, camera, static_cast<double>(settings.width) / settings.height, x, y);
+  notices.note(fmt::format("focused on {:.4g} m", *settings.focusDistance));
+}
+
+}  // namespace
+
 Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings& settings,
                 MemoryBudget& budget, Notices& notices) {
   nowDoing("reading the scene");
@@ -210,9 +262,12 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   if (hasSize) load.aspect = static_cast<double>(settings.width) / settings.height;
   if (!options.scene.empty()) load.sceneName = options.scene;
   load.defaultLights = options.defaultLights;
+  if (settings.areaLights && !load.defaultLights) load.defaultLights = false;
   load.confined = options.confined;
   load.defaultBackground = options.defaultBackground && options.background.empty();
   Scene scene = loadGltf(options.file, load, notices);
+  if (settings.areaLights && !addSurfaceLight(scene))
+    notices.warn("--area-lights: no surface of the scene glows");
   settleSize(options, scene, settings);
   if (!hasSize) promisePicture(budget, costs, settings);
   if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))
@@ -225,6 +280,8 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
     notices.note(fmt::format("--ambient auto{}: {} W/(m² sr)", isStudio ? ", with the studio's lights" : "",
                              *settings.ambient));
   }
+  settleFocus(options, scene, settings, notices);
+  if (settings.glossy && !given(options.mirrorRoughness)) settings.mirrorRoughness = kGlossyMirrorRoughness;
   nowDoing("");
   for (const auto& text : notices.warnings) warn(text);
   if (!options.quiet)

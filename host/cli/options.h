@@ -26,8 +26,10 @@ struct SceneOptions {
   bool quiet = false;
   std::optional<MemoryLimit> memory;  ///< unset: what the machine has
   ViewpointOptions view;
+  std::optional<glm::ivec2> focus;  ///< a pixel to focus on
   /// Null where the command draws no picture.
-  CLI::Option *width = nullptr, *height = nullptr, *ambient = nullptr;
+  CLI::Option *width = nullptr, *height = nullptr, *ambient = nullptr, *focusPixel = nullptr,
+              *mirrorRoughness = nullptr;
 };
 
 void addSceneOptions(CLI::App& command, SceneOptions& options);

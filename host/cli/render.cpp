@@ -72,16 +72,6 @@ OutputCheck checkOutputs(RenderOptions& o) {
   return check;
 }
 
-glm::ivec2 parsePixel(const std::string& option, const std::string& word) {
-  const auto comma = word.find(',');
-  if (comma == std::string::npos)
-    throw InputError(fmt::format("{}: '{}' is no pixel; it is two whole numbers, X,Y", option, word));
-  const auto part = [&](const std::string& text) {
-    return static_cast<int>(parseWhole(option, text, 0, 65534));
-  };
-  return {part(word.substr(0, comma)), part(word.substr(comma + 1))};
-}
-
 FloatImage readReference(const RenderOptions& o) {
   if (o.reference.empty()) return {};
   if (isToneMapped(o.reference))

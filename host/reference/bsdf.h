@@ -9,7 +9,8 @@
 namespace whittle::reference {
 
 /// BSDF for light from w_i (unit, on the viewer's side), 1/sr, without impulses and without coverage.
-Vec3 spreadingBsdf(const Surfel& surfel, const Vec3& w_i, const Vec3& w_o);
+/// `withoutGloss`: what a glossy surfel's impulses have is left out.
+Vec3 spreadingBsdf(const Surfel& surfel, const Vec3& w_i, const Vec3& w_o, bool withoutGloss = false);
 
 /// The delta part of the BSDF: all light goes one way.
 struct Impulse {
@@ -30,7 +31,8 @@ struct Impulses {
   std::span<const Impulse> all() const { return {items.data(), static_cast<std::size_t>(count)}; }
 };
 
-Impulses impulsesOf(const Surfel& surfel, const Vec3& w_o);
+/// `facets`: of a glossy surfel which of the microfacets that w_o sees, a point of the unit square.
+Impulses impulsesOf(const Surfel& surfel, const Vec3& w_o, const Vec2& facets = Vec2(0));
 
 /// One of them, chosen with probability in proportion to its luminance by `u` in [0,1), divided by that.
 Impulses chooseOne(const Impulses& impulses, double u);

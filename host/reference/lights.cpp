@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
+
+#include "scene/light_size.h"
 
 namespace whittle::reference {
 namespace {
@@ -22,7 +25,29 @@ double coneWindow(const Light& light, const Vec3& w_i) {
   return square(std::clamp((outer - v) / (outer - inner), 0.0, 1.0));
 }
 
+/// A direction about `axis`; `versine`: 1 − cos of the angle between them.
+Vec3 besideAxis(const Vec3& axis, double versine, double turn) {
+  const auto [right, up] = basisAbout(axis);
+  const double angle = 2 * std::numbers::pi * turn, away = std::sqrt(versine * (2 - versine));
+  return glm::normalize((1 - versine) * axis + away * (std::cos(angle) * right + std::sin(angle) * up));
+}
+
 }  // namespace
+
+LightSample spread(const Light& light, const LightSample& middle, const Settings& settings, const Vec2& u) {
+  if (!hasSize(light, settings)) return middle;
+  if (light.kind == LightKind::Directional) {
+    const double versine = sunVersine(settings);
+    return {besideAxis(middle.w_i, u.x * versine, u.y), middle.distance,
+            middle.biradiance * (2 / (2 - versine))};
+  }
+  const double squared = square(static_cast<double>(settings.lightRadius) / middle.distance);
+  if (!(squared < 1)) return {middle.w_i, middle.distance, Vec3(0)};
+  const double root = std::sqrt(1 - squared), versine = u.x * squared / (1 + root);
+  const double chord = std::sqrt(std::max(0.0, squared - versine * (2 - versine)));
+  return {besideAxis(middle.w_i, versine, u.y), middle.distance * (1 - versine - chord),
+          middle.biradiance * (2 / (1 + root))};
+}
 
 LightSample sampleLight(const Light& light, const Vec3& point) {
   const Vec3 intensity(light.intensity);

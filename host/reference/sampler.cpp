@@ -1,6 +1,8 @@
 // Sample positions in a pixel and random numbers, as README.md defines them.
 #include "reference/sampler.h"
 
+#include <bit>
+
 namespace whittle::reference {
 namespace {
 
@@ -48,10 +50,27 @@ Vec2 stratified(std::uint32_t sample, std::uint32_t count, const Vec2& random) {
   return (Vec2(sample % m, sample / m) + random) / static_cast<double>(m);
 }
 
-Vec2 sobol(std::uint32_t pixel, std::uint32_t sample, std::uint32_t seed) {
-  const std::uint32_t index = owen(sample, hash(pixel, 0, 2, seed));
-  return {unit(owen(reverseBits(index), hash(pixel, 0, 3, seed))),
-          unit(owen(secondSobolDimension(index), hash(pixel, 0, 4, seed)))};
+Vec2 sobol(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension, std::uint32_t seed) {
+  const std::uint32_t index = owen(sample, hash(pixel, 0, dimension + 2, seed));
+  return {unit(owen(reverseBits(index), hash(pixel, 0, dimension + 3, seed))),
+          unit(owen(secondSobolDimension(index), hash(pixel, 0, dimension + 4, seed)))};
+}
+
+/// The numbers below `count` in another order for each seed: a bijection of the numbers of as many bits,
+/// again while the result is not one of them.
+std::uint32_t permuted(std::uint32_t i, std::uint32_t count, std::uint32_t seed) {
+  const int bits = std::bit_width(count - 1);
+  const std::uint32_t mask = bits == 0 ? 0 : ~0U >> (32 - bits);
+  const int shift = (bits + 1) / 2;
+  do {
+    i = (i + seed) & mask;
+    i ^= i >> shift;
+    i = (i * 0x9e3779b1U) & mask;
+    i ^= i >> shift;
+    i = (i * 0x85ebca6bU + (seed >> 16)) & mask;
+    i ^= i >> shift;
+  } while (i >= count);
+  return i;
 }
 
 }  // namespace
@@ -65,9 +84,21 @@ double unit(std::uint32_t bits) { return (bits >> 8) * 0x1p-24; }
 Vec2 samplePosition(Sampler sampler, std::uint32_t pixel, std::uint32_t sample, std::uint32_t count,
                     std::uint32_t seed) {
   if (count == 1) return {0.5, 0.5};
-  if (sampler == Sampler::Sobol) return sobol(pixel, sample, seed);
+  if (sampler == Sampler::Sobol) return sobol(pixel, sample, 0, seed);
   const Vec2 random(unit(hash(pixel, sample, 0, seed)), unit(hash(pixel, sample, 1, seed)));
   return sampler == Sampler::Stratified ? stratified(sample, count, random) : random;
+}
+
+Vec2 squarePosition(Sampler sampler, std::uint32_t pixel, std::uint32_t sample, std::uint32_t count,
+                    std::uint32_t dimension, std::uint32_t seed) {
+  if (sampler == Sampler::Sobol && count > 1) return sobol(pixel, sample, dimension, seed);
+  const Vec2 random(unit(hash(pixel, sample, dimension, seed)),
+                    unit(hash(pixel, sample, dimension + 1, seed)));
+  if (sampler != Sampler::Stratified || count == 1) return random;
+  const auto m = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(count)));
+  const std::uint32_t stratum =
+      sample < m * m ? permuted(sample, m * m, hash(pixel, 0, dimension + 2, seed)) : sample;
+  return stratified(stratum, count, random);
 }
 
 }  // namespace whittle::reference

@@ -19,6 +19,17 @@ std::uint32_t hash(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dime
 /// The upper 24 bits as a number in [0, 1).
 double unit(std::uint32_t bits);
 
+/// Of the lens's square.
+inline constexpr std::uint32_t kLensDimension = 8;
+
+/// Where the eight dimensions of the microfacets' square at round r begin, less 8 r; of light i's, less
+/// 8 (r + kRounds i).
+inline constexpr std::uint32_t kGlossDimension = 0x10000, kLightDimension = 0x40000, kRounds = 8192;
+
+/// Position in [0,1)² of a sample in a square of its own, whose dimensions begin at `dimension`.
+Vec2 squarePosition(Sampler sampler, std::uint32_t pixel, std::uint32_t sample, std::uint32_t count,
+                    std::uint32_t dimension, std::uint32_t seed);
+
 /// Position in [0,1)² of sample `sample` of `count` in pixel number `pixel`; the centre if count is 1.
 Vec2 samplePosition(Sampler sampler, std::uint32_t pixel, std::uint32_t sample, std::uint32_t count,
                     std::uint32_t seed);

@@ -123,6 +123,7 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
                               0.0, 1.0),
       .transmission = transmissionAt(scene, material, hit),
       .smooth = false,
+      .glossy = false,
       .volume = material.volume,
       .unlit = material.unlit,
       .fresnel = fresnelAt(scene, material, hit),
@@ -130,6 +131,7 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
       .emission = Vec3(0),
       .sigma_a = Vec3(material.sigma_a)};
   surfel.smooth = surfel.roughness < static_cast<double>(settings.mirrorRoughness);
+  surfel.glossy = settings.glossy && !surfel.smooth && !surfel.unlit;
   surfel.eta = relativeIndex(material, surfel.front);
   if (!surfel.front) {
     surfel.facing = -surfel.facing;

@@ -19,6 +19,7 @@ struct Surfel {
   double roughness;
   double transmission;
   bool smooth;  ///< reflects as a mirror
+  bool glossy;  ///< is not smooth, and reflects by microfacets (Settings::glossy)
   bool volume;  ///< bounds a solid: rays refract
   bool unlit;
   TintedFresnel fresnel;

@@ -1,6 +1,7 @@
 // The recursion: Li and Lo of README.md, shadow rays, impulses.
 #include "reference/trace.h"
 
+#include <algorithm>
 #include <array>
 
 #include "reference/camera.h"
@@ -8,6 +9,7 @@
 #include "reference/ray_notes.h"
 #include "reference/sampler.h"
 #include "reference/texture.h"
+#include "scene/light_size.h"
 
 namespace whittle::reference {
 namespace {
@@ -31,15 +33,60 @@ ShadowRay shadowRay(const Surfel& surfel, const Vec3& w_i, double distance) {
   return {{surfel.position + surfel.rayOffset * surfel.facing, w_i}, distance - 2 * surfel.rayOffset};
 }
 
-Vec3 directLight(const World& world, const Sample& sample, const Surfel& surfel, const Vec3& w_o,
-                 RayNotes& notes) {
+std::uint32_t roundOf(const Step& step) { return static_cast<std::uint32_t>(step.bounce + step.passed); }
+
+/// Where the sample lies in the square whose dimensions begin there.
+Vec2 squareOf(const World& world, const Sample& sample, std::uint32_t dimension) {
+  const Settings& s = world.settings;
+  return squarePosition(s.sampler, sample.pixel, sample.index, static_cast<std::uint32_t>(s.raysPerPixel),
+                        dimension, s.seed);
+}
+
+/// By a point of a triangle that glows, chosen by its power.
+LightSample emitterFor(const World& world, const Vec3& point, Vec2 u) {
+  if (world.emitters.empty()) return {Vec3(0), 0, Vec3(0)};
+  const auto chosen = std::find_if(world.emitters.begin(), world.emitters.end() - 1,
+                                   [&](const Emitter& e) { return u.x < static_cast<double>(e.until); });
+  const double begin = chosen == world.emitters.begin() ? 0.0 : static_cast<double>((chosen - 1)->until);
+  const double root = std::sqrt((u.x - begin) / (static_cast<double>(chosen->until) - begin));
+  const Vec3 weights(1 - root, root * (1 - u.y), root * u.y);
+  const auto [p0, p1, p2] = world.triangles.corners(chosen->triangle);
+  const Vec3 towards = weights.x * p0 + weights.y * p1 + weights.z * p2 - point;
+  const double distance = glm::length(towards);
+  if (!(distance > 0)) return {Vec3(0), 0, Vec3(0)};
+  const Ray ray{point, towards / distance};
+  const Surfel there =
+      makeSurfel(world.scene, world.settings, world.triangles, ray, {chosen->triangle, distance, weights});
+  const double facing = -glm::dot(there.facing, ray.direction);
+  if (!(facing > 0)) return {ray.direction, distance, Vec3(0)};
+  return {ray.direction, distance,
+          there.alpha * there.emission *
+              (facing * static_cast<double>(chosen->inverseDensity) / square(distance))};
+}
+
+/// The light with that index, by the point of it that is this sample's at this step.
+LightSample lightFor(const World& world, const Sample& sample, const Step& step, std::size_t index,
+                     const Vec3& point) {
+  const Light& light = world.scene.lights[index];
+  const LightSample middle = sampleLight(light, point);
+  const bool isSurface = light.kind == LightKind::Surface;
+  if (!isSurface && !hasSize(light, world.settings)) return middle;
+  const std::uint32_t dimension =
+      kLightDimension + 8 * (roundOf(step) + kRounds * static_cast<std::uint32_t>(index));
+  if (isSurface) return emitterFor(world, point, squareOf(world, sample, dimension));
+  return spread(light, middle, world.settings, squareOf(world, sample, dimension));
+}
+
+Vec3 directLight(const World& world, const Sample& sample, const Step& step, const Surfel& surfel,
+                 const Vec3& w_o, RayNotes& notes) {
   Vec3 sum(0);
   for (std::size_t i = 0; i < world.scene.lights.size(); ++i) {
     const Light& light = world.scene.lights[i];
-    const auto [w_i, distance, biradiance] = sampleLight(light, surfel.position);
+    const auto [w_i, distance, biradiance] = lightFor(world, sample, step, i, surfel.position);
     const double cosine = glm::dot(surfel.n, w_i);
     if (!(cosine > 0 && glm::dot(surfel.facing, w_i) > 0)) continue;
-    const Vec3 unshadowed = surfel.alpha * spreadingBsdf(surfel, w_i, w_o) * biradiance * cosine;
+    const Vec3 unshadowed = surfel.alpha * spreadingBsdf(surfel, w_i, w_o, light.kind == LightKind::Surface) *
+                            biradiance * cosine;
     if (isDark(unshadowed)) continue;
     if (light.castsShadows && world.settings.shadows) {
       ++sample.rays.shadow;
@@ -67,7 +114,8 @@ bool isFollowed(const Settings& settings, const Impulse& impulse, const Step& st
 
 Vec3 impulseLight(const World& world, const Sample& sample, const Ray& arrived, const Hit& hit,
                   const Surfel& surfel, const Step& step, const Vec3& throughput, RayNotes& notes) {
-  Impulses impulses = impulsesOf(surfel, -arrived.direction);
+  const Vec2 facets = surfel.glossy ? squareOf(world, sample, kGlossDimension + 8 * roundOf(step)) : Vec2(0);
+  Impulses impulses = impulsesOf(surfel, -arrived.direction, facets);
   if (world.settings.impulses == ImpulseMode::One) {
     const auto dimension = static_cast<std::uint32_t>(kImpulseDimension + step.bounce + step.passed);
     impulses = chooseOne(impulses, unit(hash(sample.pixel, sample.index, dimension, world.settings.seed)));
@@ -140,7 +188,7 @@ bool showsSide(const World& world, const Ray& ray, const Hit& hit) {
 /// rough its metal.
 Vec3 ambientReflectance(const Surfel& s, const Vec3& w_o) {
   const Vec3 matte = (1 - s.metallic) * (1 - s.transmission) * s.baseColor;
-  if (!s.smooth) return matte + s.metallic * s.baseColor;
+  if (!s.smooth && !s.glossy) return matte + s.metallic * s.baseColor;
   return matte * (1.0 - s.fresnel.reflectance(std::min(1.0, glm::dot(s.n, w_o)), s.eta));
 }
 
@@ -213,7 +261,7 @@ Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& st
     const double ambient = world.settings.ambient.value_or(0.0F);
     if (ambient > 0) radiance += surfel.alpha * ambient * ambientReflectance(surfel, -ray.direction);
     notes.local(radiance);
-    radiance += directLight(world, sample, surfel, -ray.direction, notes);
+    radiance += directLight(world, sample, step, surfel, -ray.direction, notes);
   } else {
     notes.local(radiance);
   }
@@ -231,7 +279,11 @@ Ray eyeRayOf(const World& world, int x, int y, std::uint32_t sample) {
   const Settings& s = world.settings;
   const Vec2 within = samplePosition(s.sampler, pixelIndex(world, x, y), sample,
                                      static_cast<std::uint32_t>(s.raysPerPixel), s.seed);
-  return eyeRay(world.camera, Vec2(x, y) + within, s.width, s.height);
+  const Ray pinhole = eyeRay(world.camera, Vec2(x, y) + within, s.width, s.height);
+  if (!(s.aperture > 0)) return pinhole;
+  return throughLens(world.camera, pinhole, s.aperture, s.focusDistance.value_or(1.0F),
+                     squarePosition(s.sampler, pixelIndex(world, x, y), sample,
+                                    static_cast<std::uint32_t>(s.raysPerPixel), kLensDimension, s.seed));
 }
 
 }  // namespace

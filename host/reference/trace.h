@@ -6,6 +6,7 @@
 
 #include "reference/bsdf.h"
 #include "reference/reference.h"
+#include "scene/emitters.h"
 #include "scene/ray_tree.h"
 
 namespace whittle::reference {
@@ -16,6 +17,7 @@ struct World {
   const Settings& settings;
   const TriangleIndex& triangles;
   const Camera& camera;
+  std::vector<Emitter> emitters = emittersOf(scene);
 };
 
 /// One sample of one pixel, and where its rays are counted.

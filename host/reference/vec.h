@@ -22,6 +22,17 @@ inline bool anyPositive(const Vec3& v) { return v.x > 0 || v.y > 0 || v.z > 0; }
 /// Nothing that could be seen. NaN is not dark: it must reach the film, to be counted.
 inline bool isDark(const Vec3& v) { return v.x <= 0 && v.y <= 0 && v.z <= 0; }
 
+/// Two unit vectors across an axis (unit) and each other: Duff et al., "Building an Orthonormal Basis,
+/// Revisited", JCGT 2017.
+struct Basis {
+  Vec3 right, up;
+};
+inline Basis basisAbout(const Vec3& axis) {
+  const double side = axis.z < 0 ? -1 : 1, a = -1 / (side + axis.z), b = axis.x * axis.y * a;
+  return {Vec3(1 + side * axis.x * axis.x * a, side * b, -side * axis.x),
+          Vec3(b, side + axis.y * axis.y * a, -axis.y)};
+}
+
 /// Rec. 709 luminance of linear RGB.
 inline double luminance(const Vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 

@@ -14,6 +14,7 @@
 #include "render/preparation.h"
 #include "render/sampling_loop.h"
 #include "scene/camera.h"
+#include "scene/light_size.h"
 #include "wavefront/camera_to_device.h"
 #include "wavefront/film.h"
 #include "wavefront/pixel_recorder.h"
@@ -70,7 +71,12 @@ device::RenderConstants constantsToDevice(const Scene& scene, const Camera& came
           .transparentBounces = static_cast<std::uint32_t>(s.transparentBounces),
           .ambient = s.ambient.value_or(0.0F),
           .backgroundAhead = backgroundAhead(scene.background),
-          .backgroundClear = s.alpha ? 1U : 0U};
+          .backgroundClear = s.alpha ? 1U : 0U,
+          .lightRadius = s.lightRadius,
+          .sunVersine = static_cast<float>(sunVersine(s)),
+          .sampler = static_cast<std::uint32_t>(s.sampler),
+          .raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel),
+          .glossy = s.glossy ? 1U : 0U};
 }
 
 std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& settings,
@@ -226,7 +232,8 @@ void RenderSession::State::provideScene(Compute& compute, const Scene& from, con
                         settings.mirrorRoughness};
   DeviceTables tables = tablesOf(from, decisions.pruned);
   // An edit may ask for texels that were not read before.
-  work.scene = !scene.serves(wanted) || scene.value->tables.texels != tables.texels;
+  work.scene = !scene.serves(wanted) || scene.value->tables.texels != tables.texels ||
+               scene.value->tables.emitters != tables.emitters;
   if (!work.scene) {
     work.tables =
         log.time("upload", [&] { return takeOver(compute, from, std::move(tables), *scene.value); });

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "scene/scene.h"
+#include "scene/settings.h"
 
 namespace whittle {
 
@@ -13,6 +15,11 @@ namespace whittle {
 inline bool isLit(const Material& m) { return !m.unlit; }
 inline bool emits(const Material& m) { return isLit(m) && m.emission != glm::vec3(0.0F); }
 inline bool isMetallic(const Material& m) { return m.metallic > 0.0F; }
+
+/// What canReflect and those after it take for a mirror: with Settings::glossy anything.
+inline float reflectingRoughness(const Settings& settings) {
+  return settings.glossy ? std::numeric_limits<float>::infinity() : settings.mirrorRoughness;
+}
 
 /// Somewhere smoother than `mirrorRoughness` (Settings): a mirror or clear glass there.
 inline bool canBeSmooth(const Material& m, float mirrorRoughness) {

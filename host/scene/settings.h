@@ -54,7 +54,15 @@ struct Settings {
   /// Radiance, W/(m² sr), that every lit surface receives from all sides, unshadowed: Whitted's ambient term.
   /// Unset: chosen for the scene (automaticAmbient) before it is rendered.
   std::optional<float> ambient = 0.0F;
-  int raysPerPixel = 1;  ///< 1 = through the pixel's centre
+  int raysPerPixel = 1;      ///< 1 = through the pixel's centre
+  bool areaLights = false;   ///< surfaces that glow light others; loading has added the light to the scene
+  float lightRadius = 0.0F;  ///< metres, of every point and spot light: a sphere of the same intensity
+  float sunAngle = 0.0F;     ///< degrees that every directional light fills; the sun: 0.53
+  float aperture = 0.0F;     ///< metres, the diameter of the camera's thin lens; 0: a pinhole
+  /// Metres along the camera's axis that it is focused on. Unset: what the middle of the picture shows,
+  /// settled before it is rendered.
+  std::optional<float> focusDistance;
+  bool glossy = false;  ///< rough surfaces reflect and refract what is around them
   bool shadows = true;
   Search search = Search::Auto;
   Sampler sampler = Sampler::Random;
@@ -104,6 +112,12 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("cutoff", s.cutoff);
   visit("ambient", s.ambient);
   visit("raysPerPixel", s.raysPerPixel);
+  visit("areaLights", s.areaLights);
+  visit("lightRadius", s.lightRadius);
+  visit("sunAngle", s.sunAngle);
+  visit("aperture", s.aperture);
+  visit("focusDistance", s.focusDistance);
+  visit("glossy", s.glossy);
   visit("shadows", s.shadows);
   visit("search", s.search);
   visit("sampler", s.sampler);

@@ -42,9 +42,4 @@ class HandCamera {
   glm::dvec3 pivot_{0};
 };
 
-/// Where the ray through (x, y), in [0, 1]² from the picture's top left, first meets a triangle, in the
-/// scene's coordinates; else the point of it nearest to `otherwise`. Linear in the triangles, in parallel.
-glm::dvec3 pointUnder(const Scene& scene, const Camera& camera, double aspect, double x, double y,
-                      const glm::dvec3& otherwise);
-
 }  // namespace whittle::view

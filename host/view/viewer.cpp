@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "analysis/focus.h"
 #include "reference/reference.h"
 #include "render/aovs.h"
 #include "render/explanation.h"
@@ -29,6 +30,9 @@ bool isOfCodes(const std::string& id) { return id == "exposure" || id == "tone-m
 bool isOfBackground(const std::string& id) {
   return id == "background-rotation" || id == "background-strength";
 }
+
+/// Settings that put something into the scene.
+bool isOfLoading(const std::string& id) { return id == "area-lights"; }
 
 }  // namespace
 
@@ -123,6 +127,8 @@ void Viewer::takeOver(Loaded loaded) {
 Request Viewer::request() const {
   Settings settings = settings_;
   if (layer_ != kBeauty) askForAov(settings, layer_);
+  if (settings.aperture > 0 && !settings.focusDistance)
+    settings.focusDistance = focusOn(*scene_, camera_.camera(), aspect());
   return {scene_, appearance_, camera_.camera(), settings, isMoving_};
 }
 
@@ -344,6 +350,8 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
     makeCodes();
   else if (isOfBackground(id))
     edited();
+  else if (isOfLoading(id))
+    load({}, true);
   else
     ask();
   return {};

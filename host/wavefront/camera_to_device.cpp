@@ -33,6 +33,9 @@ device::DeviceCamera cameraToDevice(const Camera& camera, const Settings& s) {
   d.raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel);
   d.sampler = static_cast<std::uint32_t>(s.sampler);
   d.znear = camera.znear;
+  for (int i = 0; i < 3; ++i) d.right[i] = camera.right[i], d.up[i] = camera.up[i];
+  d.lensRadius = s.aperture / 2;
+  d.focusDistance = s.focusDistance.value_or(1.0F);
   return d;
 }
 

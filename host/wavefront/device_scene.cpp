@@ -20,7 +20,7 @@ namespace {
 
 static_assert(sizeof(device::Node) == sizeof(TreeNode));
 static_assert(sizeof(device::DeviceTriangle) == 48);
-static_assert(sizeof(device::DeviceCamera) == 128);
+static_assert(sizeof(device::DeviceCamera) == 176);
 
 /// False for corners on one line, by the differences that the kernels see; products of two floats are exact
 /// in double.
@@ -99,6 +99,16 @@ std::vector<float> srgbTable() {
         static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
   }
   return table;
+}
+
+/// With the places of their triangles in leaf order.
+std::vector<device::DeviceEmitter> emittersToDevice(const std::vector<Emitter>& emitters,
+                                                    const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> leafOf(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) leafOf[order[i]] = i;
+  std::vector<device::DeviceEmitter> out;
+  for (const Emitter& e : emitters) out.push_back({leafOf[e.triangle], e.until, e.inverseDensity});
+  return out;
 }
 
 /// An attribute of the vertices that are used, in their order on the device. One that is kept though the
@@ -218,6 +228,8 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
     d.texels = uploadTexels(compute, scene, d.tables.texels, consumed);
     d.linearFromSrgb = compute.upload("linearFromSrgb", srgbTable());
   }
+  if (!d.tables.emitters.empty())
+    d.emitters = compute.upload("emitters", emittersToDevice(d.tables.emitters, tree.order));
   d.lightCount = static_cast<std::uint32_t>(d.tables.lights.size());
   d.lights = compute.upload("lights", d.tables.lights);
   if (features.has(Feature::BACKGROUND_MAP))

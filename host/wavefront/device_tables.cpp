@@ -104,7 +104,8 @@ std::uint32_t triangleFlags(const Material& m) {
          (blends(m) ? TRIANGLE_COATS : 0U) | (showsFrontOnly(m) ? TRIANGLE_ONE_SIDED : 0U);
 }
 
-std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const PrunedScene& pruned) {
+std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const PrunedScene& pruned,
+                                                std::size_t emitters) {
   std::vector<device::DeviceLight> out;
   const auto versine = [](double angle) {
     const double s = std::sin(0.5 * angle);
@@ -121,6 +122,8 @@ std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const Pruned
     d.castsShadows = l.castsShadows;
     d.versineOuter = versine(l.outerConeAngle);
     d.versineInner = versine(l.innerConeAngle);
+    d.index = i;
+    d.emitters = static_cast<std::uint32_t>(emitters);
     out.push_back(d);
   }
   return out;
@@ -143,7 +146,10 @@ DeviceTables tablesOf(const Scene& scene, const PrunedScene& pruned) {
   if (tables.materials.empty()) tables.materials.push_back(toDevice(Material{}, atlas));
   tables.texels = atlas.ranges();
   tables.textures = std::move(atlas.slots);
-  tables.lights = lightsToDevice(scene, pruned);
+  const bool glows = std::any_of(pruned.lights.begin(), pruned.lights.end(),
+                                 [&](std::uint32_t i) { return scene.lights[i].kind == LightKind::Surface; });
+  if (glows) tables.emitters = emittersOf(scene);
+  tables.lights = lightsToDevice(scene, pruned, tables.emitters.size());
   tables.surfaces = surfacesOf(pruned);
   return tables;
 }

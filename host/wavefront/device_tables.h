@@ -9,6 +9,7 @@
 #include "analysis/pruned_scene.h"
 #include "cl/program.h"
 #include "kernels/shared/layout.h"
+#include "scene/emitters.h"
 #include "scene/scene.h"
 
 namespace whittle {
@@ -29,6 +30,7 @@ struct TexelRange {
 };
 
 struct DeviceTables {
+  std::vector<Emitter> emitters;                  ///< of a surface light, where there is one
   std::vector<device::DeviceLight> lights;        ///< those that reach something, in the scene's order
   std::vector<device::DeviceMaterial> materials;  ///< one at least
   std::vector<device::DeviceTexture> textures;    ///< the slots of materials

@@ -226,12 +226,14 @@ struct ShadeLight {
       [](const StageConditions& c) { return c.lights > 1; }};
   SceneArgument scene;
   device::RenderConstants constants{};
-  Count first = 0, count = 0, capacity = 0, bounce = 0, light = 0;
+  device::Batch batch{};
+  Count first = 0, count = 0, capacity = 0, bounce = 0, light = 0, width = 0;
+  Global<const Count> pixelOrder;
   Global<const float> rays, hits;
   Global<float> entryRadiance, shadows;
   Global<std::uint8_t> flags;
-  WHITTLE_ARGUMENTS(scene, constants, first, count, capacity, bounce, light, rays, hits, entryRadiance,
-                    shadows, flags)
+  WHITTLE_ARGUMENTS(scene, constants, batch, first, count, capacity, bounce, light, width, pixelOrder, rays,
+                    hits, entryRadiance, shadows, flags)
 
   Count items() const { return count; }
   /// Reads rays, hits, radiance and flags; writes the last two. Candidates come on top (Shade::bytesOf).

@@ -117,6 +117,31 @@ INLINE Real3 sumError3(Real3 a, Real3 b, Real3 sum) {
   return real3(sumError(a.x, b.x, sum.x), sumError(a.y, b.y, sum.y), sumError(a.z, b.z, sum.z));
 }
 
+/// Two unit vectors across `axis` (unit) and each other (Duff et al., "Building an Orthonormal Basis, Revisited", 2017).
+INLINE void basisAbout(Real3 axis, Real3* right, Real3* up) {
+  const Real side = axis.z < 0.0f ? (Real)(-1.0f) : (Real)(1.0f);
+  const Real a = -1.0f / (side + axis.z), b = axis.x * axis.y * a;
+  *right = real3(1.0f + side * axis.x * axis.x * a, side * b, -side * axis.x);
+  *up = real3(b, side + axis.y * axis.y * a, -axis.y);
+}
+
+/// A point of the unit square for each lane.
+typedef struct {
+  Real u, v;
+} Square;
+
+/// cos and sin of 2 pi turns; lane by lane, since those of vectors may round otherwise.
+INLINE void aroundCircle(Real turns, Real* cosine, Real* sine) {
+  float c[LANES], s[LANES];
+  STORE(turns, c);
+  for (uint k = 0; k < LANES; ++k) {
+    const float halfTurns = 2.0f * c[k];
+    c[k] = cospi(halfTurns), s[k] = sinpi(halfTurns);
+  }
+  *cosine = LOAD(c);
+  *sine = LOAD(s);
+}
+
 /// One struct out of an array for each lane: where its words begin. Neighbours mostly share one.
 typedef struct {
   __global const float* words;

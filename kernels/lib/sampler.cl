@@ -44,34 +44,79 @@ INLINE uint sobolSecond(uint i) {
   return result;
 }
 
-INLINE float2 samplePixelRandom(uint pixel, uint sample, uint seed) {
-  return (float2)(unitFloat(hash4(pixel, sample, 0, seed)), unitFloat(hash4(pixel, sample, 1, seed)));
+// Points of the unit square; a square has the dimensions from `dimension` on.
+
+INLINE float2 squareRandom(uint pixel, uint sample, uint dimension, uint seed) {
+  return (float2)(unitFloat(hash4(pixel, sample, dimension, seed)), unitFloat(hash4(pixel, sample, dimension + 1, seed)));
 }
 
-INLINE float2 samplePixelStratified(uint pixel, uint sample, uint count, uint seed) {
+/// The side of the largest square of strata that `count` samples fill.
+INLINE uint strataAcross(uint count) {
   uint m = (uint)sqrt((float)count);
   while (m * m > count) --m;
   while ((m + 1) * (m + 1) <= count) ++m;
-  const float2 u = samplePixelRandom(pixel, sample, seed);
-  if (sample >= m * m) return u;
-  return ((float2)((float)(sample % m), (float)(sample / m)) + u) / (float)m;
+  return m;
 }
 
-INLINE float2 samplePixelSobol(uint pixel, uint sample, uint seed) {
-  const uint i = owenScramble(sample, hash4(pixel, 0, 2, seed));  // aligned blocks stay aligned blocks
-  const uint a = owenScramble(reverseBits(i), hash4(pixel, 0, 3, seed));
-  const uint b = owenScramble(sobolSecond(i), hash4(pixel, 0, 4, seed));
+/// A point of stratum `at` of m by m, the one at u of it; beyond the last stratum u itself.
+INLINE float2 inStratum(uint at, uint m, float2 u) {
+  if (at >= m * m) return u;
+  return ((float2)((float)(at % m), (float)(at / m)) + u) / (float)m;
+}
+
+INLINE float2 squareSobol(uint pixel, uint sample, uint dimension, uint seed) {
+  const uint i = owenScramble(sample, hash4(pixel, 0, dimension + 2, seed));  // aligned blocks stay aligned blocks
+  const uint a = owenScramble(reverseBits(i), hash4(pixel, 0, dimension + 3, seed));
+  const uint b = owenScramble(sobolSecond(i), hash4(pixel, 0, dimension + 4, seed));
   return (float2)(unitFloat(a), unitFloat(b));
+}
+
+/// i < n in an order of its own for each seed: steps that keep each number of as many bits as n - 1 apart, again while
+/// the result is not below n.
+INLINE uint permuted(uint i, uint n, uint seed) {
+  uint bits = n - 1;
+  bits |= bits >> 1;
+  bits |= bits >> 2;
+  bits |= bits >> 4;
+  bits |= bits >> 8;
+  bits |= bits >> 16;
+  const uint shift = (popcount(bits) + 1) / 2;
+  do {
+    i = (i + seed) & bits;
+    i ^= i >> shift;
+    i = (i * 0x9e3779b1u) & bits;
+    i ^= i >> shift;
+    i = (i * 0x85ebca6bu + (seed >> 16)) & bits;
+    i ^= i >> shift;
+  } while (i >= n);
+  return i;
+}
+
+/// Point of a sample in a square of its own, [0,1)²; of stratified samples in an order of its own, so that where a
+/// sample lies in the pixel does not say where it lies here.
+INLINE float2 sampleSquare(uint sampler, uint pixel, uint sample, uint count, uint dimension, uint seed) {
+#if HAS(SAMPLER_STRATIFIED)
+  if (sampler == 1 && count > 1) {
+    const uint m = strataAcross(count);
+    const uint at = sample < m * m ? permuted(sample, m * m, hash4(pixel, 0, dimension + 2, seed)) : sample;
+    return inStratum(at, m, squareRandom(pixel, sample, dimension, seed));
+  }
+#endif
+#if HAS(SAMPLER_SOBOL)
+  if (sampler == 2 && count > 1) return squareSobol(pixel, sample, dimension, seed);
+#endif
+  return squareRandom(pixel, sample, dimension, seed);
 }
 
 /// Position of a sample in its pixel, [0,1)².
 INLINE float2 samplePixel(const DeviceCamera* camera, uint pixel, uint sample) {
   if (camera->raysPerPixel == 1) return (float2)(0.5f, 0.5f);
 #if HAS(SAMPLER_STRATIFIED)
-  if (camera->sampler == 1) return samplePixelStratified(pixel, sample, camera->raysPerPixel, camera->seed);
+  if (camera->sampler == 1)
+    return inStratum(sample, strataAcross(camera->raysPerPixel), squareRandom(pixel, sample, 0, camera->seed));
 #endif
 #if HAS(SAMPLER_SOBOL)
-  if (camera->sampler == 2) return samplePixelSobol(pixel, sample, camera->seed);
+  if (camera->sampler == 2) return squareSobol(pixel, sample, 0, camera->seed);
 #endif
-  return samplePixelRandom(pixel, sample, camera->seed);
+  return squareRandom(pixel, sample, 0, camera->seed);
 }

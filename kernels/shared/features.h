@@ -59,6 +59,10 @@
 #define BIT_DEEP_TEXTURES 50               // textures of 16 bits
 #define BIT_COVERAGE 51                    // alpha channel
 #define BIT_COST 52                        // search cost
+#define BIT_LIGHT_SIZE 53                  // lights of some size
+#define BIT_LENS 54                        // thin lens
+#define BIT_GLOSS 55                       // glossy impulses
+#define BIT_SURFACE_LIGHTS 56              // surface lights
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

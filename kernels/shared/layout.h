@@ -99,7 +99,15 @@ WHITTLE_STRUCT(DeviceLight) {
   uint castsShadows;
   float versineOuter;  // 1 - cos of the half angles
   float versineInner;
-  uint pad[2];
+  uint index;     // in the scene
+  uint emitters;  // of a surface light
+};
+
+// A triangle that glows, see host/scene/emitters.h.
+WHITTLE_STRUCT(DeviceEmitter) {
+  uint triangle;  // in leaf order
+  float until;
+  float inverseDensity;  // m²
 };
 
 // Vectors are four floats apart: a compiler loads the fourth along, and the bits of a small integer there
@@ -122,6 +130,12 @@ WHITTLE_STRUCT(DeviceCamera) {
   uint sampler;  // 0 random, 1 stratified, 2 sobol
   float znear;   // metres along forward: where eye rays begin, with NEAR_PLANE
   uint pad;
+  // With LENS: unit vectors in its plane, its radius, and how far along forward it is focused, m.
+  float right[4];
+  float up[4];
+  float lensRadius;
+  float focusDistance;
+  uint padding[2];
 };
 
 // Constants of a render that a kernel needs by value.
@@ -139,6 +153,12 @@ WHITTLE_STRUCT(RenderConstants) {
   float ambient;            // radiance from all sides that every lit surface receives, with AMBIENT
   float backgroundAhead;    // u of the map seen along -Z, in [0, 1]: a half, where it is not turned
   uint backgroundClear;     // 1: what the eye sees of it straight on counts as transmittance, with COVERAGE
+  // With LIGHT_SIZE: the radius of lights with a place, m; 1 - cos of half the angle that directional ones fill.
+  float lightRadius;
+  float sunVersine;
+  uint sampler;  // as in DeviceCamera
+  uint raysPerPixel;
+  uint glossy;  // 1: rough surfaces send out impulses, with GLOSS
 };
 
 // The samples of one batch: pixels [firstPixel, firstPixel + pixels) of the pixel order, times samples

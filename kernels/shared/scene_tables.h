@@ -6,11 +6,12 @@
 // X(Kind, NAME, word, unit, isPlaced, isAimed, hasCone): LightKind::Kind on the host, LIGHT_NAME in kernels,
 // the feature NAME_LIGHTS; what glTF and a person call it; the unit of its intensity; which fields of Light
 // it uses: position and range, direction, the two cone angles. A light with a place falls off with the
-// squared distance.
+// squared distance. Surface: all triangles that glow (--area-lights); no file has it.
 #define WHITTLE_LIGHT_TYPES(X)                                \
   X(Point, POINT, "point", "W/sr", 1, 0, 0)                   \
   X(Directional, DIRECTIONAL, "directional", "W/m²", 0, 1, 0) \
-  X(Spot, SPOT, "spot", "W/sr", 1, 1, 1)
+  X(Spot, SPOT, "spot", "W/sr", 1, 1, 1)                      \
+  X(Surface, SURFACE, "surface", "times its emission", 0, 0, 0)
 
 // X(slot, FEATURE, encoding, factor, (OTHERS)): the member of Material, and of DeviceMaterial that holds its
 // index; the feature of reading it; how its colours are stored; what is multiplied by it, of a material m

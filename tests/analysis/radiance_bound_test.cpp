@@ -182,7 +182,7 @@ TEST(LightReach, NoPointOfAMaterialIsNearer) {
     for (int i = 0; i < 3; ++i)
       addQuad(scene, material, rng.inBox(1), rng.inBox(1), s % 2 ? rng.inBox(1e-6F) : rng.inBox(1));
     scene.lights = {pointLight(rng.inBox(2), 1)};
-    const auto most = largestBiradiance(scene);
+    const auto most = largestBiradiance(scene, {});
     EXPECT_EQ(most[1], glm::dvec3(0));
     double sampled = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -219,12 +219,12 @@ TEST(LargestBiradiance, IsThatOfTheNearestTriangleAlone) {
     light.position = random.inBox(1.5F);
     light.range = std::numeric_limits<float>::infinity();
     scene.lights = {light};
-    const auto all = largestBiradiance(scene);
+    const auto all = largestBiradiance(scene, {});
     std::vector<glm::dvec3> alone(3, glm::dvec3(0));
     for (const Triangle& t : scene.triangles) {
       Scene one = scene;
       one.triangles = {t};
-      alone[t.material] = glm::max(alone[t.material], largestBiradiance(one)[t.material]);
+      alone[t.material] = glm::max(alone[t.material], largestBiradiance(one, {})[t.material]);
     }
     for (std::size_t m = 0; m < 3; ++m) EXPECT_EQ(all[m], alone[m]) << "light " << i << ", material " << m;
   }

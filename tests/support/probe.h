@@ -28,6 +28,28 @@ inline Material emitter(const glm::vec3& radiance) {
   return m;
 }
 
+/// A place on a white metal with that normal and roughness.
+inline reference::Surfel whiteMetalAt(const Vec3& n, double roughness) {
+  return {.position = Vec3(0),
+          .facing = n,
+          .n = n,
+          .front = true,
+          .rayOffset = 0,
+          .baseColor = Vec3(1),
+          .alpha = 1,
+          .metallic = 1,
+          .roughness = roughness,
+          .transmission = 0,
+          .smooth = false,
+          .glossy = true,
+          .volume = false,
+          .unlit = false,
+          .fresnel = {1.5, 1, Vec3(1)},
+          .eta = 1.5,
+          .emission = Vec3(0),
+          .sigma_a = Vec3(0)};
+}
+
 /// Reflectance `colour` at normal incidence, on both sides.
 inline Material mirror(const glm::vec3& colour) {
   Material m;

@@ -68,4 +68,16 @@ inline RenderResult shootRowDown(Scene scene, double height, double reach, int c
   return renderOnDevice(scene, settings);
 }
 
+/// W/m² at the origin on a floor that looks up: Lambert's part of `samples` rays into it from above.
+inline double irradianceAtOrigin(Scene scene, Settings settings, int samples) {
+  addFloor(scene, lambert(glm::vec3(1)), 0);
+  Camera camera = lookingDown();
+  camera.ymag = 1e-6F;  // one place, whatever the sample's place in the pixel
+  scene.cameras = {camera};
+  settings.width = settings.height = 1;
+  settings.bounces = 1;
+  settings.raysPerPixel = samples;
+  return static_cast<double>(colorOf(renderOnDevice(scene, settings)).x) * reference::kPi;
+}
+
 }  // namespace whittle::test

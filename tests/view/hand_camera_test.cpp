@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/focus.h"
 #include "support/random_scenes.h"
 #include "support/single_rays.h"
 
@@ -93,12 +94,12 @@ TEST(PointUnder, IsOnTheNearestSurfaceOrAsFarAsBefore) {
   Camera camera;
   camera.position = {0, 5, 0};
   aim(camera, {0, -1, 0});
-  EXPECT_NEAR(view::pointUnder(scene, camera, 1, 0.5, 0.5, {0, 0, 0}).y, 1, 1e-6);
-  const glm::dvec3 corner = view::pointUnder(scene, camera, 1, 0.05, 0.5, {0, 0, 0});
+  EXPECT_NEAR(pointUnder(scene, camera, 1, 0.5, 0.5, {0, 0, 0}).y, 1, 1e-6);
+  const glm::dvec3 corner = pointUnder(scene, camera, 1, 0.05, 0.5, {0, 0, 0});
   EXPECT_NEAR(corner.y, 0, 1e-6) << "beside the upper one";
   EXPECT_NEAR(glm::length(corner), 5 * std::tan(0.45) * 0.9, 1e-4);
   aim(camera, {0, 1, 0});
-  EXPECT_NEAR(view::pointUnder(scene, camera, 1, 0.5, 0.5, {0, 8, 0}).y, 8, 1e-6) << "nothing there";
+  EXPECT_NEAR(pointUnder(scene, camera, 1, 0.5, 0.5, {0, 8, 0}).y, 8, 1e-6) << "nothing there";
 }
 
 }  // namespace

@@ -7,6 +7,13 @@ INLINE Mask isSmooth(const RenderConstants* constants, const Surfel* s) {
   return s->roughness < constants->mirrorRoughness;
 }
 
+#if HAS(GLOSS)
+/// Rough, and reflects whatever is around it.
+INLINE Mask isGlossy(const RenderConstants* constants, const Surfel* s) {
+  return !isSmooth(constants, s) & ((Natural)(constants->glossy) == 1u);
+}
+#endif
+
 /// Ratio of indices n_t/n_i for light arriving from the viewer's side.
 INLINE Real interfaceEta(const Surfel* s) {
   const Mask outside = s->front | ((s->flags & MATERIAL_VOLUME) == 0);
@@ -40,8 +47,15 @@ INLINE Real3 dielectricReflectance(const Surfel* s, Real cosine, Mask* total) {
 #endif
 }
 
-/// f(w_i, w_o), 1/sr, without impulses; both directions on the side of n.
-INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i) {
+/// Of GGX; a mirror's lobe would be 0/0.
+INLINE Real microfacetAlpha(const Surfel* s) {
+  const Real squared = s->roughness * s->roughness;
+  return squared > 1e-3f ? squared : (Real)(1e-3f);
+}
+
+/// f(w_i, w_o), 1/sr, without impulses; both directions on the side of n. light: LIGHT_…, since what glossy surfaces
+/// reflect of surfaces that glow is in their impulses.
+INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i, uint light) {
   const Real cosO = dot3(s->n, w_o);
   const Real dielectric = 1.0f - s->metallic;
   const Real3 diffuse = scale3(1.0f - s->transmission, scale3((Real)(1.0f / PI), s->baseColor));
@@ -53,14 +67,16 @@ INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s,
     const Real3 h = normalize3(add3(w_i, w_o));
     const Real cosH = dot3(s->n, h);
     const Real cosD = clampUnit(dot3(w_o, h));
-    const Real squared = s->roughness * s->roughness;
-    const Real alpha = squared > 1e-3f ? squared : (Real)(1e-3f);  // a mirror's lobe would be 0/0
+    const Real alpha = microfacetAlpha(s);
     const Real a2 = alpha * alpha;
     const Real k = cosH * cosH * (a2 - 1.0f) + 1.0f;
     const Real distribution = a2 / (PI * k * k);
     const Real visibility = 0.5f /
                             (cosI * sqrt(a2 + (1.0f - a2) * cosO * cosO) + cosO * sqrt(a2 + (1.0f - a2) * cosI * cosI));
-    const Real lobe = distribution * visibility;
+    Real lobe = distribution * visibility;
+#if HAS(GLOSS) && HAS(SURFACE_LIGHTS)
+    if (light == LIGHT_SURFACE) lobe = isGlossy(constants, s) ? (Real)(0.0f) : lobe;
+#endif
     const Real3 fresnel = schlick(s->specularF0, real3(s->specularF90, s->specularF90, s->specularF90), cosD);
     const Real largest = largestOfThree(fresnel.x, fresnel.y, fresnel.z);
     f = scale3(dielectric, add3(scale3(1.0f - largest, diffuse), scale3(lobe, fresnel)));
@@ -84,7 +100,12 @@ INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s,
 INLINE Real3 ambientReflectance(const RenderConstants* constants, const Surfel* s, Real3 w_o) {
   const Mask smooth = isSmooth(constants, s);
   const Real matte = (1.0f - s->metallic) * (1.0f - s->transmission);
-  Real3 share = scale3(smooth ? matte : matte + s->metallic, s->baseColor);
+#if HAS(GLOSS)
+  const Mask reflects = smooth | isGlossy(constants, s);
+#else
+  const Mask reflects = smooth;
+#endif
+  Real3 share = scale3(reflects ? matte : matte + s->metallic, s->baseColor);
   if (some(smooth)) {
     const Real cosO = dot3(s->n, w_o);
     Mask total;
@@ -106,19 +127,58 @@ typedef struct {
   Mask straight;  // goes on as the ray came; known with STRAIGHT
 } Impulse;
 
+#if HAS(GLOSS)
+/// The normal of a microfacet that w_o sees, sampled by how much of w_o each takes up (Heitz 2018; by spherical caps,
+/// Dupuy and Benyoub 2023).
+INLINE Real3 visibleNormal(const Surfel* s, Real3 w_o, Square at) {
+  const Real alpha = microfacetAlpha(s);
+  Real3 right, up;
+  basisAbout(s->n, &right, &up);
+  const Real3 seen = normalize3(real3(alpha * dot3(right, w_o), alpha * dot3(up, w_o), dot3(s->n, w_o)));
+  Real cosine, sine;
+  aroundCircle(at.u, &cosine, &sine);
+  const Real z = (1.0f - at.v) * (1.0f + seen.z) - seen.z;
+  const Real across2 = 1.0f - z * z, across = sqrt(across2 > 0.0f ? across2 : (Real)(0.0f));
+  const Real x = across * cosine + seen.x, y = across * sine + seen.y;
+  return normalize3(add3(add3(scale3(alpha * x, right), scale3(alpha * y, up)), scale3(z + seen.z, s->n)));
+}
+
+/// sqrt(1 + alpha² tan²) of the angle to n: 1 + 2 Λ of Smith's shadowing (Heitz 2014).
+INLINE Real smithRoot(const Surfel* s, Real3 w) {
+  const Real alpha = microfacetAlpha(s), cosine = dot3(s->n, w), c2 = cosine * cosine;
+  const Real s2 = 1.0f - c2;
+  return sqrt(1.0f + alpha * alpha * (s2 > 0.0f ? s2 : (Real)(0.0f)) / c2);
+}
+
+/// What is left of a reflection along a sampled normal, G2/G1 of height-correlated Smith; 0 below the surface.
+INLINE Real reflectionWeight(const Surfel* s, Real3 w_o, Real3 w_i) {
+  const Real o = smithRoot(s, w_o), i = smithRoot(s, w_i);
+  const Mask above = (dot3(s->n, w_i) > 0.0f) & (dot3(s->n_g, w_i) > 0.0f);
+  return above ? (1.0f + o) / (o + i) : (Real)(0.0f);
+}
+#endif
+
 #if HAS(MIRROR) || HAS(REFRACTION)
-INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real cosine,
+/// n: of the surface, or of a microfacet.
+INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, Real3 n, Real3 w_o, Real cosine,
                              Real3 reflectance, Mask total) {
   Impulse impulse;
   const Mask inside = total & ((s->flags & MATERIAL_VOLUME) != 0) & (s->transmission > 0.0f);
-  const Real3 aboutN = sub3(scale3(2.0f * cosine, s->n), w_o);
+  const Real3 aboutN = sub3(scale3(2.0f * cosine, n), w_o);
   const Real3 aboutG = sub3(scale3(2.0f * dot3(s->n_g, w_o), s->n_g), w_o);
   impulse.w_i = normalize3(choose3(dot3(s->n_g, aboutN) > 0.0f, aboutN, aboutG));
   Real3 magnitude = scale3(1.0f - s->metallic, reflectance);
 #if HAS(METAL)
   magnitude = add3(magnitude, scale3(s->metallic, schlick(s->baseColor, same3((float3)(1.0f)), cosine)));
 #endif
-  impulse.magnitude = choose3(isSmooth(constants, s) | inside, scale3(s->alpha, magnitude), same3((float3)(0.0f)));
+  Mask reflects = isSmooth(constants, s) | inside;
+#if HAS(GLOSS)
+  const Mask glossy = isGlossy(constants, s);
+  impulse.w_i = choose3(glossy, aboutN, impulse.w_i);
+  magnitude = choose3(glossy, scale3(reflectionWeight(s, w_o, aboutN), magnitude), magnitude);
+  reflects = reflects | glossy;
+#endif
+  impulse.magnitude = choose3(reflects, scale3(s->alpha, magnitude), same3((float3)(0.0f)));
   impulse.straight = (Mask)(0);
   return impulse;
 }
@@ -137,7 +197,8 @@ INLINE Real3 refracted(Real3 n, Real3 w_o, Real eta) {
 }
 #endif
 
-INLINE Impulse transmissionImpulse(const Surfel* s, Real3 w_o, Real3 reflectance) {
+INLINE Impulse transmissionImpulse(const RenderConstants* constants, const Surfel* s, Real3 n, Real3 w_o,
+                                   Real3 reflectance) {
   Impulse impulse;
   const Real3 zero = same3((float3)(0.0f));
   impulse.w_i = minus3(w_o);
@@ -149,8 +210,16 @@ INLINE Impulse transmissionImpulse(const Surfel* s, Real3 w_o, Real3 reflectance
   const Real eta = interfaceEta(s);
   const Mask volume = (s->flags & MATERIAL_VOLUME) != 0;
   const Mask bends = volume & (s->ior != 0.0f) & (eta != 1.0f);
-  Real3 w_t = refracted(s->n, w_o, eta);
+  Real3 w_t = refracted(n, w_o, eta);
+#if HAS(GLOSS)
+  // Behind a microfacet; what does not come out behind the surface is lost. Smith's G1 of the way there.
+  const Mask glossy = isGlossy(constants, s);
+  w_t = choose3((dot3(s->n_g, w_t) < 0.0f) | glossy, w_t, refracted(s->n_g, w_o, eta));
+  const Real kept = dot3(s->n, w_t) < 0.0f ? 2.0f / (1.0f + smithRoot(s, w_t)) : (Real)(0.0f);
+  impulse.magnitude = choose3(glossy & bends, scale3(kept, impulse.magnitude), impulse.magnitude);
+#else
   w_t = choose3(dot3(s->n_g, w_t) < 0.0f, w_t, refracted(s->n_g, w_o, eta));
+#endif
   impulse.w_i = choose3(bends, w_t, impulse.w_i);
   impulse.straight = impulse.straight & !bends;
   const Mask stopped = (volume & (s->ior == 0.0f)) | (bends & !(dot3(s->n_g, w_t) < 0.0f));
@@ -163,23 +232,39 @@ INLINE Impulse transmissionImpulse(const Surfel* s, Real3 w_o, Real3 reflectance
 #endif
 
 /// The impulses of surfels, at most two each, in their fixed order.
-INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 w_o, Impulse* first, Impulse* second) {
+/// `facets`: with GLOSS which of the microfacets that w_o sees.
+INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 w_o, Square facets, Impulse* first,
+                       Impulse* second) {
   const Real3 zero = same3((float3)(0.0f)), back = minus3(w_o);
   first->magnitude = second->magnitude = zero;
   first->w_i = second->w_i = back;
   first->straight = second->straight = (Mask)(0);
 #if HAS(IMPULSES)
 #if HAS(MIRROR) || HAS(REFRACTION) || HAS(TRANSMISSION)
-  if (some(isSmooth(constants, s) | (s->transmission > 0.0f))) {
-    const Real along = dot3(s->n, w_o);
+  Real3 n = s->n;
+  Mask asked = isSmooth(constants, s) | (s->transmission > 0.0f);
+#if HAS(GLOSS)
+  const Mask glossy = isGlossy(constants, s);
+  n = choose3(glossy, visibleNormal(s, w_o, facets), n);
+  asked = asked | glossy;
+#endif
+  if (some(asked)) {
+    const Real along = dot3(n, w_o);
     const Real cosine = along < 1.0f ? along : (Real)(1.0f);
     Mask total;
-    const Real3 reflectance = dielectricReflectance(s, cosine, &total);
+    Real3 reflectance = dielectricReflectance(s, cosine, &total);
+#if HAS(GLOSS)
+    // As its highlight has it (finiteScattering).
+    const Mask opaque = glossy & !(s->transmission > 0.0f);
+    const Real3 f90 = real3(s->specularF90, s->specularF90, s->specularF90);
+    reflectance = choose3(opaque, schlick(s->specularF0, f90, cosine), reflectance);
+    total = total & !opaque;
+#endif
 #if HAS(MIRROR) || HAS(REFRACTION)
-    *first = mirrorImpulse(constants, s, w_o, cosine, reflectance, total);
+    *first = mirrorImpulse(constants, s, n, w_o, cosine, reflectance, total);
 #endif
 #if HAS(TRANSMISSION)
-    if (some(s->transmission > 0.0f)) *second = transmissionImpulse(s, w_o, reflectance);
+    if (some(s->transmission > 0.0f)) *second = transmissionImpulse(constants, s, n, w_o, reflectance);
 #endif
   }
 #endif

@@ -52,3 +52,48 @@ INLINE Illumination illuminationAt(__global const DeviceLight* light, Real3 p) {
 #endif
   return result;
 }
+
+#if HAS(LIGHT_SIZE)
+/// A direction within a cone about `axis` (unit), evenly in solid angle. less: 1 - cos of the angle between them, at
+/// most that of the cone.
+INLINE Real3 inCone(Real3 axis, Real less, Real turns) {
+  Real cosine, sine;
+  aroundCircle(turns, &cosine, &sine);
+  Real3 right, up;
+  basisAbout(axis, &right, &up);
+  const Real away = sqrt(less * (2.0f - less));
+  const Real3 across = add3(scale3(away * cosine, right), scale3(away * sine, up));
+  return normalize3(add3(scale3(1.0f - less, axis), across));
+}
+
+/// What a light of some size sends to the entries by one of its points instead of all of it: a sphere of the same
+/// intensity about a light with a place (which is dark inside), a cone of directions about that of a directional one,
+/// both of one radiance. Evenly in solid angle (Pharr, Jakob, Humphreys 2023, 6.2.4); cones and ranges go by the middle.
+INLINE Illumination spread(__global const DeviceLight* light, const RenderConstants* constants,
+                           const Illumination* point, Square at) {
+  Illumination result = *point;
+#if HAS(DIRECTIONAL_LIGHTS)
+  if (light->kind == LIGHT_DIRECTIONAL) {
+    if (constants->sunVersine > 0.0f) {
+      result.w_i = inCone(point->w_i, at.u * constants->sunVersine, at.v);
+      result.biradiance = scale3((Real)(2.0f / (2.0f - constants->sunVersine)), point->biradiance);
+    }
+    return result;
+  }
+#endif
+#if HAS(POINT_LIGHTS) || HAS(SPOT_LIGHTS)
+  if (constants->lightRadius > 0.0f) {
+    const Real ratio = constants->lightRadius / point->distance, squared = ratio * ratio;
+    const Mask outside = squared < 1.0f;
+    const Real root = sqrt(outside ? 1.0f - squared : (Real)(0.0f));
+    const Real less = at.u * squared / (1.0f + root);
+    const Real chord = squared - less * (2.0f - less);
+    result.w_i = inCone(point->w_i, less, at.v);
+    result.distance = point->distance * (1.0f - less - sqrt(chord > 0.0f ? chord : (Real)(0.0f)));
+    const Real3 spreadOut = scale3(2.0f / (1.0f + root), point->biradiance);
+    result.biradiance = choose3(outside, spreadOut, same3((float3)(0.0f)));
+  }
+#endif
+  return result;
+}
+#endif

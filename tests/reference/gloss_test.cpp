@@ -1,0 +1,111 @@
+// Glossy impulses: the distribution of their directions, and what they bring of a white sky, against
+// quadrature of the microfacet lobe that lights meet.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "reference/bsdf.h"
+#include "reference/sampler.h"
+#include "support/probe.h"
+
+namespace whittle::test {
+namespace {
+
+using reference::kPi;
+
+/// Its normal is tilted off every axis.
+reference::Surfel whiteMetal(double roughness) {
+  return whiteMetalAt(glm::normalize(Vec3(0.3, 0.8, -0.5)), roughness);
+}
+
+/// A direction at that angle to the surfel's normal, turned about it.
+Vec3 direction(const reference::Surfel& s, double cosine, double angle) {
+  const auto [right, up] = reference::basisAbout(s.n);
+  const double sine = std::sqrt(1 - cosine * cosine);
+  return cosine * s.n + sine * (std::cos(angle) * right + std::sin(angle) * up);
+}
+
+Vec2 random(std::uint32_t i) {
+  return {reference::unit(reference::hash(i, 0, 0, 7)), reference::unit(reference::hash(i, 0, 1, 7))};
+}
+
+/// ∫ f cosθ dω over the cells [cos][angle] of the hemisphere, of channel x.
+std::vector<double> lobeOfCells(const reference::Surfel& s, const Vec3& w_o, int cells, int steps) {
+  std::vector<double> sums(static_cast<std::size_t>(cells * cells), 0.0);
+  const int n = cells * steps;
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < n; ++b) {
+      const double cosine = (a + 0.5) / n;
+      const Vec3 w_i = direction(s, cosine, 2 * kPi * (b + 0.5) / n);
+      sums[static_cast<std::size_t>(a / steps * cells + b / steps)] +=
+          reference::spreadingBsdf(s, w_i, w_o).x * cosine * 2 * kPi / n / n;
+    }
+  return sums;
+}
+
+/// What impulses bring from each cell is what the lobe integrates to there: directions and magnitudes
+/// together.
+TEST(Gloss, ImpulsesIntegrateTheLobe) {
+  constexpr int kCells = 6;
+  constexpr std::uint32_t kSamples = 400000;
+  for (const double roughness : {0.4, 0.7, 1.0})
+    for (const double cosine : {0.95, 0.5, 0.15}) {
+      const reference::Surfel s = whiteMetal(roughness);
+      const Vec3 w_o = direction(s, cosine, 0.7);
+      const auto expected = lobeOfCells(s, w_o, kCells, 120);
+      std::vector<double> sums(expected.size(), 0.0), squares(expected.size(), 0.0);
+      const auto [right, up] = reference::basisAbout(s.n);
+      for (std::uint32_t i = 0; i < kSamples; ++i) {
+        for (const auto& impulse : reference::impulsesOf(s, w_o, random(i)).all()) {
+          const double c = glm::dot(impulse.w_i, s.n);
+          double angle = std::atan2(glm::dot(impulse.w_i, up), glm::dot(impulse.w_i, right));
+          if (angle < 0) angle += 2 * kPi;
+          const auto cell =
+              static_cast<std::size_t>(std::min(kCells - 1, static_cast<int>(c * kCells)) * kCells +
+                                       std::min(kCells - 1, static_cast<int>(angle / (2 * kPi) * kCells)));
+          sums[cell] += impulse.magnitude.x, squares[cell] += impulse.magnitude.x * impulse.magnitude.x;
+        }
+      }
+      double chi = 0;
+      int counted = 0;
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        const double mean = sums[i] / kSamples;
+        const double variance = std::max(squares[i] / kSamples - mean * mean, 1e-12) / kSamples;
+        if (expected[i] < 1e-4) continue;
+        chi += (mean - expected[i]) * (mean - expected[i]) / variance;
+        ++counted;
+      }
+      // χ² of `counted` degrees: mean `counted`, deviation sqrt(2 counted); five deviations.
+      EXPECT_LT(chi, counted + 5 * std::sqrt(2.0 * counted))
+          << "roughness " << roughness << " cosine " << cosine;
+      EXPECT_GT(counted, 5);
+    }
+}
+
+/// No more comes back than there is: single scattering by microfacets only loses (Heitz 2014).
+TEST(Gloss, AWhiteSkyIsNotMadeBrighter) {
+  for (const double roughness : {0.25, 0.5, 1.0})
+    for (const double cosine : {1.0, 0.6, 0.05}) {
+      const reference::Surfel s = whiteMetal(roughness);
+      const Vec3 w_o = direction(s, cosine, 2);
+      double sum = 0;
+      for (std::uint32_t i = 0; i < 20000; ++i)
+        for (const auto& impulse : reference::impulsesOf(s, w_o, random(i)).all()) {
+          ASSERT_LE(impulse.magnitude.x, 1 + 1e-12);
+          sum += impulse.magnitude.x;
+        }
+      EXPECT_LE(sum / 20000, 1);
+      EXPECT_GT(sum / 20000, roughness < 0.3 ? 0.9 : 0.3);
+    }
+}
+
+/// Light that goes the way back meets the same lobe.
+TEST(Gloss, TheLobeIsReciprocal) {
+  const reference::Surfel s = whiteMetal(0.5);
+  const Vec3 a = direction(s, 0.9, 1), b = direction(s, 0.3, 4);
+  EXPECT_NEAR(reference::spreadingBsdf(s, a, b).x, reference::spreadingBsdf(s, b, a).x, 1e-12);
+}
+
+}  // namespace
+}  // namespace whittle::test

@@ -1,0 +1,137 @@
+// Surfaces that glow as lights: irradiance against closed forms, how errors fall, and the reference.
+#include <cmath>
+#include <numbers>
+
+#include "scene/emitters.h"
+#include "support/agreement.h"
+#include "support/single_rays.h"
+
+namespace whittle::test {
+namespace {
+
+Settings withAreaLights(Sampler sampler = Sampler::Sobol) {
+  Settings settings;
+  settings.areaLights = true;
+  settings.sampler = sampler;
+  return settings;
+}
+
+/// Radiance 1 downwards, a rectangle about the y axis at that height.
+Scene glowingRectangle(float width, float depth, float height) {
+  Scene scene;
+  Material m = emitter({1, 1, 1});
+  m.doubleSided = false;
+  addQuad(scene, addMaterial(scene, m), {-width / 2, height, -depth / 2}, {width, 0, 0}, {0, 0, depth});
+  addSurfaceLight(scene);
+  return scene;
+}
+
+/// Of a parallel rectangle above its middle: four times the corner's (Howell, catalogue of view factors,
+/// B-3).
+double rectangleIrradiance(double width, double depth, double height) {
+  const double x = width / 2 / height, y = depth / 2 / height;
+  const double sx = std::sqrt(1 + x * x), sy = std::sqrt(1 + y * y);
+  return 2 * (x / sx * std::atan(y / sx) + y / sy * std::atan(x / sy));
+}
+
+TEST(AreaLights, ARectangleGivesTheClosedForm) {
+  for (const auto& [width, depth, height] :
+       {std::tuple(1.0F, 1.0F, 2.0F), std::tuple(4.0F, 0.5F, 1.0F), std::tuple(2.0F, 2.0F, 1.5F)}) {
+    const double expected = rectangleIrradiance(width, depth, height);
+    const double seen = irradianceAtOrigin(glowingRectangle(width, depth, height), withAreaLights(), 4096);
+    EXPECT_NEAR(seen / expected, 1, 1e-3) << width << "×" << depth << " at " << height;
+  }
+}
+
+/// E = π L R² / (R² + h²), of a disk of many triangles, some of them as thin as needles.
+TEST(AreaLights, ADiskGivesTheClosedForm) {
+  constexpr int kSides = 512;
+  constexpr double kRadius = 0.7, kHeight = 1.3;
+  Scene scene;
+  Material m = emitter({1, 1, 1});
+  m.doubleSided = false;
+  const auto material = addMaterial(scene, m);
+  scene.positions.push_back({0, kHeight, 0});
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kSides;
+    scene.positions.push_back({kRadius * std::cos(angle), kHeight, kRadius * std::sin(angle)});
+    scene.triangles.push_back(
+        {0, static_cast<std::uint32_t>(i + 1), static_cast<std::uint32_t>((i + 1) % kSides + 1), material});
+  }
+  addSurfaceLight(scene);
+  const double expected = std::numbers::pi * kRadius * kRadius / (kRadius * kRadius + kHeight * kHeight);
+  EXPECT_NEAR(irradianceAtOrigin(scene, withAreaLights(), 4096) / expected, 1, 1e-3);
+}
+
+/// Twice as bright or twice as large is twice as often chosen, and what is dark never.
+TEST(AreaLights, EmittersAreChosenByTheirPower) {
+  Scene scene;
+  addFloor(scene, emitter({1, 1, 1}), 0, true, 1);
+  addFloor(scene, emitter({0, 4, 0}), 1, true, 1);
+  addFloor(scene, lambert(glm::vec3(1)), 2, true, 1);
+  Material masked = emitter({9, 9, 9});
+  masked.alphaMode = AlphaMode::Mask;
+  addFloor(scene, masked, 3, true, 1);
+  const auto emitters = emittersOf(scene);
+  ASSERT_EQ(emitters.size(), 4U);
+  EXPECT_FLOAT_EQ(emitters[0].until, 0.1F);
+  EXPECT_FLOAT_EQ(emitters[1].until, 0.2F);
+  EXPECT_FLOAT_EQ(emitters[2].until, 0.6F);
+  EXPECT_EQ(emitters[3].until, 1.0F);
+  EXPECT_NEAR(emitters[0].inverseDensity, 2 / 0.1, 1e-5);
+  EXPECT_NEAR(emitters[3].inverseDensity, 2 / 0.4, 1e-5);
+  Scene dark;
+  addFloor(dark, lambert(glm::vec3(1)), 0);
+  EXPECT_FALSE(addSurfaceLight(dark));
+  EXPECT_TRUE(dark.lights.empty());
+}
+
+/// The root of the mean squared error over many pixels: with the root of the samples where they are
+/// independent, faster where they are not.
+TEST(AreaLights, ErrorsFallAsTheSamplersPromise) {
+  Scene scene = glowingRectangle(1, 1, 1);
+  addFloor(scene, lambert(glm::vec3(1)), 0);
+  Camera camera = lookingDown();
+  camera.position = {0, 0.5F, 0};
+  camera.ymag = 1e-6F;
+  scene.cameras = {camera};
+  const double expected = rectangleIrradiance(1, 1, 1) / std::numbers::pi;
+  const auto errorOf = [&](Sampler sampler, int samples) {
+    Settings settings = withAreaLights(sampler);
+    settings.width = settings.height = 24;
+    settings.bounces = 1;
+    settings.raysPerPixel = samples;
+    const RenderResult result = renderOnDevice(scene, settings);
+    double squares = 0;
+    for (std::size_t i = 0; i < 576; ++i)
+      squares += std::pow(static_cast<double>(colorOf(result, i).x) - expected, 2) / 576;
+    return std::sqrt(squares);
+  };
+  const double random = errorOf(Sampler::Random, 16) / errorOf(Sampler::Random, 256);
+  EXPECT_NEAR(random, 4, 0.6) << "sixteen times the samples";
+  // Strata of side 1/m leave an error of 1/m² for a smooth integrand: 16 times less with 16 times the
+  // samples.
+  EXPECT_GT(errorOf(Sampler::Stratified, 16) / errorOf(Sampler::Stratified, 256), 9);
+  EXPECT_GT(errorOf(Sampler::Sobol, 16) / errorOf(Sampler::Sobol, 256), 9);
+}
+
+/// Several emitters, a texture on one, mirrors and glass between, shadows of both; glossy and not.
+TEST(AreaLights, AgreeWithTheReference) {
+  for (const bool glossy : {false, true})
+    for (const char* name : {"cornell_box", "nested_glass"}) {
+      Scene scene = ownScene(name);
+      addQuad(scene, addMaterial(scene, emitter({0.5F, 2, 1})), {-0.4F, 0.1F, 0.3F}, {0.1F, 0, 0},
+              {0, 0.1F, 0.05F});
+      if (!scene.normals.empty()) scene.normals.resize(scene.positions.size(), glm::vec3(0));
+      if (!scene.uv0.empty()) scene.uv0.resize(scene.positions.size(), glm::vec2(0));
+      if (!scene.colors.empty()) scene.colors.resize(scene.positions.size(), glm::vec4(1));
+      ASSERT_TRUE(addSurfaceLight(scene));
+      Settings settings = smallSettings(4);
+      settings.glossy = glossy, settings.areaLights = true;
+      settings.raysPerPixel = 2;
+      expectAgreement(compareWithReference(scene, settings), name, 400);
+    }
+}
+
+}  // namespace
+}  // namespace whittle::test

@@ -16,7 +16,7 @@ struct Sphere {
 };
 
 /// About the box of all triangles.
-Sphere boundsOf(const Scene& scene) {
+Sphere sphereAbout(const Scene& scene) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   glm::dvec3 lo(inf), hi(-inf);
   for (const Triangle& t : scene.triangles)
@@ -46,7 +46,7 @@ glm::dvec3 meanOf(const Background& background) {
 }  // namespace
 
 float automaticAmbient(const Scene& scene) {
-  const Sphere bounds = boundsOf(scene);
+  const Sphere bounds = sphereAbout(scene);
   glm::dvec3 irradiance(0);
   for (const Light& light : scene.lights) {
     if (light.kind == LightKind::Surface) continue;  // it is not known how near they are

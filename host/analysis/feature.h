@@ -16,7 +16,7 @@ enum class Feature : int {
 #undef WHITTLE_ENUM
 };
 
-/// A list of the tables, (A, B), as {A, B}: write WHITTLE_LIST and the list's name.
+/// WHITTLE_LIST OTHERS is {A, B} for a list (A, B) of kernels/shared/scene_tables.h.
 #define WHITTLE_LIST(...) \
   { __VA_ARGS__ }
 

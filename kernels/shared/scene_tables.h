@@ -1,5 +1,5 @@
-// Lights and materials as host and kernels both know them, one row each: light types, texture slots, factors.
-// Who needs a list of them walks these tables; nobody writes a second one.
+// Lights and materials as host and kernels both know them, one row each: light types, texture slots, factors,
+// what only some materials do. Who needs a list of them walks these tables; nobody writes a second one.
 #ifndef WHITTLE_SCENE_TABLES_H
 #define WHITTLE_SCENE_TABLES_H
 

@@ -34,7 +34,7 @@ void titles(ViewModel& model, Part part) {
         ImGui::AlignTextToFramePadding();
       }
       const std::string title =
-          fmt::format("{}{}", edits.title(part, index), edits.isEdited(part, index) ? " *" : "");
+          fmt::format("{}{}", edits.isEdited(part, index) ? "* " : "", edits.title(part, index));
       if (ImGui::Selectable(title.c_str(), edits.chosen(part) == index)) edits.choose(part, index);
       tip(title);
       ImGui::PopID();

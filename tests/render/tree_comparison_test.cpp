@@ -33,7 +33,8 @@ class SameTrees : public testing::TestWithParam<const char*> {};
 
 TEST_P(SameTrees, OnEveryPixelAndTheirSumsAreTheReferencesPicture) {
   const Scene scene = ownScene(GetParam());
-  const Settings settings = comparedSettings(6);
+  Settings settings = comparedSettings(6);
+  settings.width = 16, settings.height = 9;
   const ReferenceResult picture = renderReference(scene, settings);
   RenderSession session;
   RayCounts counted;
@@ -43,7 +44,7 @@ TEST_P(SameTrees, OnEveryPixelAndTheirSumsAreTheReferencesPicture) {
       const RayTree reference = referenceTrees(scene, settings, x, y).at(0);
       EXPECT_FALSE(compareTrees(kernels, reference).parting)
           << x << "," << y << ": " << partingOf(kernels, reference, scene);
-      const std::size_t at = 3 * (static_cast<std::size_t>(y) * 24 + static_cast<std::size_t>(x));
+      const std::size_t at = 3 * static_cast<std::size_t>(y * settings.width + x);
       for (int c = 0; c < 3; ++c)
         EXPECT_EQ(static_cast<float>(reference.radiance[c]), picture.radiance.pixels[at + c])
             << x << "," << y;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/crop.h"
 #include "cli/viewpoint.h"
 #include "gltf/loader.h"
 #include "scene/memory_budget.h"
@@ -26,6 +27,7 @@ struct SceneOptions {
   bool quiet = false;
   std::optional<MemoryLimit> memory;  ///< unset: what the machine has
   ViewpointOptions view;
+  std::optional<Crop> crop;  ///< becomes Settings::crop when the picture's size is known
   /// Null where the command draws no picture.
   CLI::Option *width = nullptr, *height = nullptr, *ambient = nullptr;
 };

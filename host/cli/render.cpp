@@ -14,6 +14,7 @@
 #include "cli/aovs.h"
 #include "cli/build_failure.h"
 #include "cli/commands.h"
+#include "cli/crop.h"
 #include "cli/error_options.h"
 #include "cli/guard.h"
 #include "cli/option_kinds.h"
@@ -66,16 +67,6 @@ OutputCheck checkOutputs(RenderOptions& o) {
   if (!o.kernelFolder.empty() && !std::filesystem::is_directory(o.kernelFolder))
     throw InputError(fmt::format("--kernels: {} is no folder", o.kernelFolder.string()));
   return check;
-}
-
-glm::ivec2 parsePixel(const std::string& option, const std::string& word) {
-  const auto comma = word.find(',');
-  if (comma == std::string::npos)
-    throw InputError(fmt::format("{}: '{}' is no pixel; it is two whole numbers, X,Y", option, word));
-  const auto part = [&](const std::string& text) {
-    return static_cast<int>(parseWhole(option, text, 0, 65534));
-  };
-  return {part(word.substr(0, comma)), part(word.substr(comma + 1))};
 }
 
 FloatImage readReference(const RenderOptions& o) {
@@ -240,7 +231,7 @@ int runRender(RenderOptions& o) {
   const auto start = Clock::now();
   OutputCheck check = checkOutputs(o);
   o.settings.aovs = !o.aovs.empty();
-  const FloatImage reference = readReference(o);
+  FloatImage reference = readReference(o);
   if (!o.reference.empty() && reference.hadAlpha != o.settings.alpha)
     warn(fmt::format(
         "--reference: {} has {} alpha channel, but the picture has {}: where the background shows, "
@@ -257,6 +248,7 @@ int runRender(RenderOptions& o) {
   Scene scene =
       loadScene(o.scene, {kTriangleBytes, kRuntimeBytes, pictureBytes}, o.settings, budget, notices);
   for (const auto& file : notices.files) check.reads(file);
+  if (o.settings.crop && !o.reference.empty()) reference = cutOut(reference, *o.settings.crop);
   if (trace) trace->phase("load", start);
   const double load = since(start);
   if (o.explain) {

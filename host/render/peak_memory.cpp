@@ -26,9 +26,7 @@ std::uint64_t bytesOf(const Scene& s) {
   return bytes;
 }
 
-std::uint64_t pixelsOf(const Settings& s) {
-  return static_cast<std::uint64_t>(s.width) * static_cast<std::uint64_t>(s.height);
-}
+std::uint64_t pixelsOf(const Settings& s) { return tracedRegion(s).pixels(); }
 
 /// Of the device's buffers; of queues the part that the picture's samples reach.
 class DeviceBytes {
@@ -95,8 +93,9 @@ std::uint64_t peakBytes(const Scene& scene, const RenderPlan& plan, std::uint64_
     largest = std::max(largest, bytesOf(image.texels) + bytesOf(image.deepTexels));
   const std::uint64_t uploading = drawn + device.all() + largest;
   // The order of the pixels is made on this side; the picture comes when everything is still there.
-  const std::uint64_t rendering = drawn + device.all() + channels * sizeof(float) * pixels +
-                                  (device.named("aovs") > 0 ? device.named("aovs") * 2 : 0);
+  const std::uint64_t rendering =
+      drawn + device.all() + channels * sizeof(float) * pixels +
+      (device.named("aovs") > 0 ? device.named("aovs") * 2 + device.named("pixelOrder") : 0);
   // Encoding: the picture once more, as codes or as floats that do not compress.
   const std::uint64_t writing = drawn + 2 * channels * sizeof(float) * pixels;
   const std::uint64_t own = std::max({whole + build, whole + upload, uploading, rendering, writing});

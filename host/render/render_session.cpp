@@ -76,7 +76,9 @@ std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& set
   if (!picture.aovs) return {};
   std::vector<float> planes(picture.aovs.bytes / sizeof(float));
   compute.read(picture.aovs, 0, picture.aovs.bytes, planes.data());
-  auto aovs = splitAovs(settings.width, settings.height, planes);
+  std::vector<std::uint32_t> order(picture.order.bytes / sizeof(std::uint32_t));
+  compute.read(picture.order, 0, picture.order.bytes, order.data());
+  auto aovs = splitAovs(settings, order, planes);
   aovs["samples"] = loop.samples();
   return aovs;
 }
@@ -107,7 +109,7 @@ struct RenderSession::State {
   };
 
   struct PictureKey {
-    int width = 0, height = 0;
+    Region region;
     std::size_t planes = 0;
     bool aovs = false, adaptive = false;
     bool operator==(const PictureKey&) const = default;
@@ -189,7 +191,7 @@ OpenDevice& RenderSession::State::openFor(const Settings& settings, const Render
 /// An empty film, and the order of its pixels.
 void RenderSession::State::providePicture(Compute& compute, const Settings& settings,
                                           const Decisions& decisions) {
-  const PictureKey wanted{settings.width, settings.height,
+  const PictureKey wanted{tracedRegion(settings),
                           filmPlanes(settings.raysPerPixel, decisions.features.has(Feature::COVERAGE)),
                           decisions.features.has(Feature::AOVS), settings.adaptive};
   work.picture = !picture.serves(wanted);
@@ -268,7 +270,8 @@ WavefrontSetup setupOf(const Scene& scene, const DeviceScene& onDevice, const Se
           constantsToDevice(scene, camera, settings),
           static_cast<std::uint32_t>(settings.bounces),
           static_cast<std::uint32_t>(mostHits(decisions.features, settings)),
-          decisions.compactChunk};
+          decisions.compactChunk,
+          static_cast<std::uint32_t>(tracedRegion(settings).pixels())};
 }
 
 StageRunner runnerOf(Compute& compute, const std::vector<cl::Program>& programs, const Decisions& decisions,
@@ -302,8 +305,8 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
   const WavefrontSetup setup = setupOf(scene, *kept.scene.value, settings, decisions, hooks);
   Wavefront wavefront(compute, stages, *kept.queues.value, setup, picture.film, picture.aovs);
   SamplingLoop loop(compute, wavefront, settings, hooks,
-                    FilmBuffers{static_cast<std::size_t>(settings.width) * settings.height, picture.order,
-                                picture.film, picture.passOrder, picture.passBlocks});
+                    FilmBuffers{tracedRegion(settings).pixels(), picture.order, picture.film,
+                                picture.passOrder, picture.passBlocks});
   const auto resultSoFar = [&] {
     RenderResult result{loop.picture(), {}, readAovs(compute, settings, picture, loop), {}};
     if (settings.alpha) result.alpha = loop.alpha();
@@ -362,7 +365,7 @@ std::vector<RayTree> RenderSession::explain(const Scene& scene, const Settings& 
     wavefront.trace({order, none, 1, static_cast<std::uint32_t>(sample), 1},
                     {[](double, bool) { return true; }});
     RayTree tree{recorder.rays(), glm::vec3(0)};
-    const std::size_t planeBytes = static_cast<std::size_t>(settings.width) * settings.height * sizeof(float);
+    const std::size_t planeBytes = setup.pixels * sizeof(float);
     for (int c = 0; c < 3; ++c)
       compute.read(film, static_cast<std::size_t>(c) * planeBytes, sizeof(float), &tree.radiance[c]);
     for (RayRecord& ray : tree.rays) {

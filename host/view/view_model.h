@@ -5,9 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "image/metrics.h"
+#include "view/difference.h"
 #include "view/live_render.h"
 #include "view/ray_drawing.h"
 
@@ -33,6 +36,23 @@ struct Picture {
   std::vector<std::uint8_t> codes;  ///< RGBA, row 0 at the top, A = 255
   std::uint64_t serial = 0;         ///< grows with each new one; 0: there is none yet
   bool coarse = false;
+};
+
+enum class CompareMode : std::uint8_t { Off, Split, Flip, Difference };
+inline const std::vector<std::string> kCompareModes{"off", "split", "flip", "difference"};
+
+/// A reference beside the picture.
+struct CompareView {
+  CompareMode mode = CompareMode::Off;
+  double split = 0.5;   ///< where the reference begins, a share of the width
+  std::string name;     ///< of the reference; empty: there is none
+  std::string problem;  ///< why the two are not compared
+  bool isOfCodes = false, isRelative = false;
+  Picture reference, difference;                    ///< no serial: not there (yet)
+  ErrorScale scale;                                 ///< of the difference
+  std::optional<ImageMetrics> figures;              ///< the last there are
+  bool isCurrent = false;                           ///< they are of the picture that is shown
+  std::vector<std::array<std::uint8_t, 3>> colors;  ///< of the scale, from its low end
 };
 
 /// An axis-aligned view: from +Z, +X or +Y.
@@ -103,6 +123,12 @@ class ViewModel {
   };
   /// Null: none is asked for, or it is not there yet.
   virtual const Explained* explained() const = 0;
+
+  virtual const CompareView& compared() const = 0;
+  /// What is shown becomes the reference.
+  virtual void keepReference() = 0;
+  /// What alone is rendered anew; none: all of the picture.
+  virtual std::optional<Region> region() const = 0;
 
   /// While a hand is on the camera pictures are coarse first.
   virtual void setMoving(bool isMoving) = 0;

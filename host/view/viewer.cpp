@@ -13,6 +13,7 @@
 #include "report/stats.h"
 #include "scene/input_error.h"
 #include "view/false_colors.h"
+#include "view/region_picture.h"
 
 namespace whittle::view {
 namespace {
@@ -29,6 +30,7 @@ Viewer::Viewer(Services services, const Settings& settings, const std::filesyste
     : services_(std::move(services)),
       settings_(settings),
       layer_(kLayers.front()),
+      comparison_(services_.readReference, services_.wake),
       live_(services_.wake, services_.compiler, services_.kernelFolder) {
   Control layer;
   layer.id = kLayerControl;
@@ -41,6 +43,10 @@ Viewer::Viewer(Services services, const Settings& settings, const std::filesyste
       "radiance, or what each pixel's first sample meets: distance, normal, base colour, triangle; or how "
       "many samples it has";
   services_.controls.insert(services_.controls.begin(), layer);
+  const auto comparing = Comparison::controls();
+  const auto afterPicture = std::find_if(services_.controls.begin(), services_.controls.end(),
+                                         [](const Control& c) { return c.group != "Picture"; });
+  services_.controls.insert(afterPicture, comparing.begin(), comparing.end());
   if (!file.empty()) load(file, false);
 }
 
@@ -86,6 +92,9 @@ void Viewer::settle(const Loaded& loaded) {
   take(&Settings::height);
   take(&Settings::camera);
   take(&Settings::ambient);
+  take(&Settings::crop);
+  if (settings_.crop && !liesWithin(*settings_.crop, settings_.width, settings_.height))
+    settings_.crop.reset();
 }
 
 void Viewer::takeOver(Loaded loaded) {
@@ -100,7 +109,7 @@ void Viewer::takeOver(Loaded loaded) {
   settle(loaded);
   for (auto& text : loaded.notes) say(false, std::move(text));
   file_ = scene_->file;
-  if (!loaded.keepsCamera) written_ = {};
+  if (!loaded.keepsCamera) written_ = {}, whole_.reset();
   if (isFirst || !loaded.keepsCamera) camera_ = held(scene_->cameras[findCamera(*scene_, settings_.camera)]);
   ask();
 }
@@ -179,10 +188,10 @@ bool Viewer::update() {
   if (followed && followed->scene == scene_) explained_ = explainedOf(std::move(*followed)), isNew = true;
   Shown shown = live_.shown();
   if (shown.result != shown_.result || shown.finished != shown_.finished) {
-    shown_ = std::move(shown);
-    makeCodes();
+    takePicture(std::move(shown));
     isNew = true;
   }
+  isNew |= comparison_.update(messages_);
   const std::string error = live_.progress().error;
   if (error != lastError_) {
     if (!error.empty()) say(true, error);
@@ -192,29 +201,52 @@ bool Viewer::update() {
   return isNew;
 }
 
+void Viewer::takePicture(Shown shown) {
+  const bool isOther = shown.result != shown_.result;
+  shown_ = std::move(shown);
+  if (shown_.result && isOther)
+    whole_ =
+        shown_.asked.crop
+            ? std::make_shared<const RenderResult>(withRegion(whole_.get(), *shown_.result, shown_.asked))
+            : shown_.result;
+  if (isOther) makeCodes();
+}
+
 void Viewer::makeCodes() {
-  if (!shown_.result || !scene_) return;
-  const FloatImage& radiance = shown_.result->radiance;
+  if (!whole_ || !scene_) return;
+  const FloatImage& radiance = whole_->radiance;
+  Settings exposed = settings_;
+  exposed.exposure = services_.stops(radiance, *scene_, settings_);
   picture_.width = radiance.width;
   picture_.height = radiance.height;
   // The layers come with the first picture that is rendered for them.
-  const bool isLayer = layer_ != kLayers.front() && shown_.result->aovs.contains(layer_);
-  picture_.codes =
-      isLayer ? falseColors(*shown_.result, layer_) : services_.codes(radiance, *scene_, settings_);
-  picture_.coarse = shown_.coarse;
+  const bool isLayer = layer_ != kLayers.front() && whole_->aovs.contains(layer_);
+  picture_.codes = isLayer ? falseColors(*whole_, layer_) : services_.codes(radiance, *scene_, exposed);
+  picture_.coarse = shown_.coarse && !shown_.asked.crop;
   ++picture_.serial;
+  if (!shown_.coarse)
+    comparison_.show(whole_, [codes = services_.codes, scene = scene_, exposed](const FloatImage& light) {
+      return codes(light, *scene, exposed);
+    });
+}
+
+void Viewer::keepReference() {
+  if (!whole_ || picture_.coarse) return say(true, "there is no picture yet");
+  comparison_.keep(whole_->radiance);
 }
 
 bool Viewer::isFinished() const { return shown_.finished && shown_.request == request_; }
 
 std::string Viewer::set(const std::string& id, const std::string& text) {
   if (id == kLayerControl) return showLayer(text);
+  if (Comparison::has(id)) return comparison_.set(id, text);
   Settings changed = settings_;
   try {
     services_.set(changed, id, text);
   } catch (const InputError& e) {
     return e.what();
   }
+  if (changed.width != settings_.width || changed.height != settings_.height) changed.crop.reset();
   settings_ = changed;
   const auto control = std::find_if(services_.controls.begin(), services_.controls.end(),
                                     [&](const Control& c) { return c.id == id; });
@@ -230,7 +262,7 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
 std::string Viewer::showLayer(const std::string& layer) {
   if (std::find(kLayers.begin(), kLayers.end(), layer) == kLayers.end())
     return fmt::format("show: '{}' is not one of {}", layer, fmt::join(kLayers, "|"));
-  const bool isTraced = layer == kLayers.front() || (shown_.result && shown_.result->aovs.contains(layer));
+  const bool isTraced = layer == kLayers.front() || (whole_ && whole_->aovs.contains(layer));
   layer_ = layer;
   if (isTraced)
     makeCodes();
@@ -337,9 +369,9 @@ void Viewer::open(const std::filesystem::path& file) { load(file, false); }
 void Viewer::reload() { load({}, true); }
 
 void Viewer::save(const std::filesystem::path& withoutExtension) {
-  if (!shown_.result || !scene_) return say(true, "there is no picture yet");
+  if (!whole_ || !scene_) return say(true, "there is no picture yet");
   try {
-    say(false, services_.save(withoutExtension, *shown_.result, *scene_, settings_));
+    say(false, services_.save(withoutExtension, *whole_, *scene_, settings_));
   } catch (const std::exception& e) {
     say(true, e.what());
   }
@@ -360,6 +392,7 @@ std::string Viewer::stateJson() const {
                    {"scene", p.work.scene ? 1 : 0},
                    {"messages", messages_.size()},
                    {"explainedRays", explained_ ? explained_->tree.rays.size() : 0}};
+  state["compare"] = comparison_.state();
   return state.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

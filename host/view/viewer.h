@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "view/comparison.h"
 #include "view/hand_camera.h"
 #include "view/live_render.h"
 #include "view/view_model.h"
@@ -31,6 +32,10 @@ struct Services {
   std::function<Scene(const std::filesystem::path& file, Settings&, std::vector<std::string>& notes)> load;
   /// Codes of a picture, RGBA.
   std::function<std::vector<std::uint8_t>(const FloatImage&, const Scene&, const Settings&)> codes;
+  /// The exposure of a picture in stops, chosen where the settings leave it open.
+  std::function<float(const FloatImage&, const Scene&, const Settings&)> stops;
+  /// On another thread. Throws InputError.
+  std::function<Reference(const std::filesystem::path&)> readReference;
   std::function<std::string(const Camera&, const glm::dvec3& origin)> cameraText;
   /// Throws InputError.
   std::function<Camera(const Scene&, double aspect, const std::string& text)> camera;
@@ -56,6 +61,7 @@ class Viewer : public ViewModel {
   const std::vector<Message>& messages() const override { return messages_; }
   const std::vector<Control>& controls() const override { return services_.controls; }
   std::string value(const std::string& id) const override {
+    if (Comparison::has(id)) return comparison_.value(id);
     return id == kLayerControl ? layer_ : services_.value(settings_, id);
   }
   std::string set(const std::string& id, const std::string& text) override;
@@ -80,6 +86,10 @@ class Viewer : public ViewModel {
   void explain(double x, double y) override;
   void closeExplanation() override { explained_.reset(); }
   const Explained* explained() const override { return explained_ ? &*explained_ : nullptr; }
+
+  const CompareView& compared() const override { return comparison_.view(); }
+  void keepReference() override;
+  std::optional<Region> region() const override { return settings_.crop; }
 
   void open(const std::filesystem::path& file) override;
   void reload() override;
@@ -116,6 +126,7 @@ class Viewer : public ViewModel {
   double size() const;  ///< of the scene, metres
   glm::dvec3 middle() const;
   HandCamera held(const Camera& camera) const;
+  void takePicture(Shown shown);
   void makeCodes();
   void lookAtFile();
   std::string showLayer(const std::string& layer);
@@ -128,6 +139,8 @@ class Viewer : public ViewModel {
   HandCamera camera_;
   bool isMoving_ = false;
   Shown shown_;
+  /// What of it is seen: with a region the rest is of what was rendered before.
+  std::shared_ptr<const RenderResult> whole_;
   std::uint64_t request_ = 0;
   Picture picture_;
   std::string codesOf_;  ///< the exposure and tone map that the codes were made with
@@ -142,6 +155,7 @@ class Viewer : public ViewModel {
   std::mutex mutex_;  ///< of loaded_ and followed_
   std::optional<Loaded> loaded_;
   std::optional<Followed> followed_;
+  Comparison comparison_;
   LiveRender live_;  ///< last: its thread uses services_ and loaded_
 };
 

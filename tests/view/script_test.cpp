@@ -63,10 +63,11 @@ std::string failure(const std::string& text) {
 TEST(Script, DoesLineByLine) {
   const Recorder stage = played(
       "# a comment\n\nkey r\nset bounces 3\nwheel 10 20 -2\nresize 640 480\ndrop a.glb # behind\n"
+      "compare right.exr\n"
       "screenshot a.png\nprint stats.rays.shadow\nquit\n");
-  EXPECT_EQ(
-      stage.log,
-      "key r; set bounces 3; wheel -2; size 640x480; drop a.glb; shot a.png; stats.rays.shadow = 12; quit; ");
+  EXPECT_EQ(stage.log,
+            "key r; set bounces 3; wheel -2; size 640x480; drop a.glb; set reference right.exr; shot a.png; "
+            "stats.rays.shadow = 12; quit; ");
 }
 
 TEST(Script, ADragGoesThereStepByStep) {

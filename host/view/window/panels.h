@@ -21,9 +21,13 @@ struct PanelState {
 /// Shown while the mouse is on the item before; nothing for an empty text.
 void tip(const std::string& text);
 
+/// A name on the left, its value on the right.
+void row(const char* label, const std::string& value);
+
 /// Into the current ImGui window.
 void settingsPanel(ViewModel& model, PanelState& state);
 void statisticsPanel(const ViewModel& model);
+void comparePanel(const ViewModel& model);
 void cameraPanel(ViewModel& model);
 void messageLine(const ViewModel& model);
 /// A pixel's rays as a foldable list; returns the ray that the mouse is on, −1: none.

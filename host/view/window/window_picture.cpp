@@ -11,19 +11,15 @@
 
 namespace whittle::view {
 
-void Window::upload() {
-  const Picture& p = model_.picture();
-  if (p.serial == uploaded_ || p.serial == 0) return;
-  glBindTexture(GL_TEXTURE_2D, texture_);
+void Window::upload(const Picture& p, Texture& to) {
+  if (p.serial == to.serial || p.serial == 0) return;
+  glBindTexture(GL_TEXTURE_2D, to.name);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  if (p.width != textureWidth_ || p.height != textureHeight_)
+  if (p.width != to.width || p.height != to.height)
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, p.width, p.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, p.codes.data());
   else
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, p.width, p.height, GL_RGBA, GL_UNSIGNED_BYTE, p.codes.data());
-  textureWidth_ = p.width;
-  textureHeight_ = p.height;
-  uploaded_ = p.serial;
-  isLinear_ = p.coarse;
+  to = {to.name, p.width, p.height, p.serial, p.coarse};
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
@@ -42,20 +38,31 @@ ImVec2 Window::inPicture(const ImVec2& at) const {
   return {(at.x - picture_.x) / picture_.width, (at.y - picture_.y) / picture_.height};
 }
 
-void Window::drawPicture() {
-  upload();
-  ImDrawList* const draw = ImGui::GetBackgroundDrawList();
-  const ImU32 ground = panels_.isLight ? IM_COL32(214, 214, 218, 255) : IM_COL32(16, 17, 19, 255);
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  draw->AddRectFilled({0, 0}, size, ground);
-  if (uploaded_ == 0) return;
-  glBindTexture(GL_TEXTURE_2D, texture_);
-  const float scale = picture_.width / static_cast<float>(textureWidth_);
-  const int filter = isLinear_ || scale != std::floor(scale) ? GL_LINEAR : GL_NEAREST;
+void Window::draw(const Texture& texture, float from, float to) {
+  glBindTexture(GL_TEXTURE_2D, texture.name);
+  const float scale = picture_.width / static_cast<float>(texture.width);
+  const int filter = texture.isCoarse || scale != std::floor(scale) ? GL_LINEAR : GL_NEAREST;
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  draw->AddImage(std::bit_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_)), {picture_.x, picture_.y},
-                 {picture_.x + picture_.width, picture_.y + picture_.height});
+  ImGui::GetBackgroundDrawList()->AddImage(
+      std::bit_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name)),
+      {picture_.x + from * picture_.width, picture_.y},
+      {picture_.x + to * picture_.width, picture_.y + picture_.height}, {from, 0}, {to, 1});
+}
+
+void Window::drawPicture() {
+  upload(model_.picture(), texture_);
+  const ImU32 ground = panels_.isLight ? IM_COL32(214, 214, 218, 255) : IM_COL32(16, 17, 19, 255);
+  ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, ImGui::GetIO().DisplaySize, ground);
+  if (texture_.serial == 0) return;
+  const Picture* const beside = pictureBeside();
+  if (!beside) return draw(texture_, 0, 1);
+  upload(*beside, beside_);
+  const float from = isSplit() ? splitPlace() : 0;
+  draw(texture_, 0, from);
+  draw(beside_, from, 1);
+  if (isSplit()) drawSplit();
+  drawNames();
 }
 
 namespace {

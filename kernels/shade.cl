@@ -55,7 +55,8 @@ INLINE Real3 backgroundAlong(const SceneView* scene, const RenderConstants* cons
 
 /// What the entries' samples are called.
 typedef struct {
-  uint place[LANES];  // in the pixel order's plane: y width + x
+  uint pixel[LANES];  // of the pass; of the film, where the sample is the first: all get that one in one pass
+  uint place[LANES];  // in the picture: y width + x
   uint sample[LANES];
 } SampleNames;
 
@@ -69,7 +70,8 @@ INLINE SampleNames sampleNames(const Batch* batch, uint width, __global const ui
 #else
     const uint slot = own;
 #endif
-    const uint packed = pixelOrder[batch->firstPixel + slot / batch->samples];
+    names.pixel[k] = batch->firstPixel + slot / batch->samples;
+    const uint packed = pixelOrder[names.pixel[k]];
     names.place[k] = (packed >> 16) * width + (packed & 0xffffu);
     names.sample[k] = batch->firstSample + slot % batch->samples;
   }
@@ -252,7 +254,7 @@ INLINE void storeAovs(const SceneView* scene, const SampleNames* names, const Ar
     own[AOV_PRIMITIVE][k] = (float)scene->triangles[triangle[k]].primitive;
     for (uint n = 0; n < AOV_PLANES; ++n) {
       const float missed = n == AOV_DEPTH ? INFINITY : (n == AOV_PRIMITIVE ? -1.0f : 0.0f);
-      aovs[(size_t)n * pixels + names->place[k]] = hit[k] ? own[n][k] : missed;
+      aovs[(size_t)n * pixels + names->pixel[k]] = hit[k] ? own[n][k] : missed;
     }
   }
 }
@@ -266,7 +268,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
                     __global float* shadows,        // [SHADOW_PLANES][capacity]
                     __global float* impulses,       // [IMPULSES_OF_HIT IMPULSE_PLANES][capacity]
                     __global uchar* flags,          // [capacity] ENTRY_…
-                    __global float* aovs) {         // [AOV_PLANES][pixels]
+                    __global float* aovs) {         // [AOV_PLANES][pixels of the film], in the pixel order
   const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;

@@ -112,7 +112,8 @@ RaySet eyeRays(const Scene& scene, std::size_t count) {
   const Camera& camera = scene.cameras.front();
   const glm::dvec3 right(camera.right), up(camera.up), forward(camera.forward), position(camera.position);
   const double half = camera.orthographic ? camera.ymag : std::tan(0.5 * static_cast<double>(camera.yfov));
-  for (const std::uint32_t packed : makePixelOrder(width, height)) {
+  for (const std::uint32_t packed :
+       makePixelOrder({0, 0, static_cast<int>(width), static_cast<int>(height)})) {
     const double x = (2 * ((packed & 0xffffU) + 0.5) - width) / height,
                  y = 1 - 2 * ((packed >> 16U) + 0.5) / height;
     const glm::dvec3 offset = half * (x * right + y * up);

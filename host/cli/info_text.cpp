@@ -155,7 +155,7 @@ std::string pruningText(const PruningReport& t) {
 std::string buffersText(const RenderPlan& plan) {
   const auto& s = plan.settings;
   std::string out =
-      wrapped(fmt::format("Buffers on {}, {}×{} pixels, {} in flight", plan.device.name, s.width, s.height,
+      wrapped(fmt::format("Buffers on {}, {} pixels, {} in flight", plan.device.name, sizeText(s),
                           formatSome(static_cast<std::uint64_t>(s.wavefront), "ray", "rays")),
               80, 2) +
       "\n";

@@ -74,14 +74,4 @@ CLI::Option* addFile(CLI::App& command, const std::string& name, std::filesystem
   return addText(command, name, set, {valueName, text, {}});
 }
 
-glm::ivec2 parsePixel(const std::string& option, const std::string& word) {
-  const auto comma = word.find(',');
-  if (comma == std::string::npos)
-    throw InputError(fmt::format("{}: '{}' is no pixel; it is two whole numbers, X,Y", option, word));
-  const auto part = [&](const std::string& text) {
-    return static_cast<int>(parseWhole(option, text, 0, 65534));
-  };
-  return {part(word.substr(0, comma)), part(word.substr(comma + 1))};
-}
-
 }  // namespace whittle::cli

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <glm/vec2.hpp>
 #include <map>
 #include <optional>
 #include <string>
@@ -39,9 +38,6 @@ double parseReal(const std::string& option, const std::string& text, double low,
 /// The same, or nothing for "auto".
 std::optional<float> parseRealOrAuto(const std::string& option, const std::string& text, double low,
                                      double high);
-
-/// A pixel, X,Y from the top left.
-glm::ivec2 parsePixel(const std::string& option, const std::string& word);
 
 template <typename T>
 CLI::Option* addWhole(CLI::App& command, const std::string& name, T& value, std::int64_t low,

@@ -82,6 +82,24 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
   c.option_defaults()->group("Picture");
   o.width = addWhole(c, "--width", s.width, 1, 65535, "PIXELS", "width of the picture");
   o.height = addWhole(c, "--height", s.height, 1, 65535, "PIXELS", "height of the picture");
+  addText(c, "--crop",
+          [&s, &o](const std::string& word) {
+            s.crop.reset();
+            o.crop = word == "none" ? std::nullopt : std::optional(parseCrop("--crop", word));
+          },
+          {"X,Y,W,H",
+           "trace only this region, from the picture's top left, in pixels, or in shares of its width and "
+           "height with "
+           "a decimal point or %: 25%,25%,50%,50%. Its pixels have the bits of the whole picture; files have "
+           "its size, "
+           "an .exr its place; error, statistics and memory are its own",
+           "none"});
+  addText(c, "--pixel",
+          [&o](const std::string& word) {
+            const glm::ivec2 at = parsePixel("--pixel", word);
+            o.crop = Crop{{static_cast<double>(at.x), static_cast<double>(at.y), 1, 1}};
+          },
+          {"X,Y", "trace only this pixel: --crop X,Y,1,1", ""});
   CLI::Option* camera = addText(c, "--camera", [&s](const std::string& v) { s.camera = v; },
                                 {"NAME|INDEX", "camera of the scene, or the node that has it", s.camera});
   addViewpointOptions(c, o.view, camera);
@@ -219,7 +237,7 @@ MemoryBudget budgetOf(const SceneOptions& options) {
 }
 
 void promisePicture(MemoryBudget& budget, const CommandCosts& costs, const Settings& settings) {
-  budget.promise(costs.picture(settings), fmt::format("a picture of {}×{}", settings.width, settings.height),
+  budget.promise(costs.picture(settings), fmt::format("a picture of {}", sizeText(settings)),
                  MemoryBudget::Cause::CommandLine);
 }
 
@@ -253,7 +271,11 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   nowDoing("reading the scene");
   const bool hasSize = given(options.width) == given(options.height);
   budget.promiseProgram(costs.programBytes);
-  if (hasSize) promisePicture(budget, costs, settings);
+  const auto holdPicture = [&] {
+    if (options.crop) settings.crop = regionOf(*options.crop, settings.width, settings.height);
+    promisePicture(budget, costs, settings);
+  };
+  if (hasSize) holdPicture();
   LoadOptions load;
   load.memory = &budget;
   load.laterTriangleBytes = costs.triangleBytes;
@@ -269,7 +291,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   if (settings.areaLights && !addSurfaceLight(scene))
     notices.warn("--area-lights: no surface of the scene glows");
   settleSize(options, scene, settings);
-  if (!hasSize) promisePicture(budget, costs, settings);
+  if (!hasSize) holdPicture();
   if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))
     notices.note("something lies beyond the camera's zfar; --clip-far leaves it out");
   applyBackground(scene, options.background, settings, budget, notices);

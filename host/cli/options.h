@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/crop.h"
 #include "cli/viewpoint.h"
 #include "gltf/loader.h"
 #include "scene/memory_budget.h"
@@ -27,6 +28,7 @@ struct SceneOptions {
   std::optional<MemoryLimit> memory;  ///< unset: what the machine has
   ViewpointOptions view;
   std::optional<glm::ivec2> focus;  ///< a pixel to focus on
+  std::optional<Crop> crop;         ///< becomes Settings::crop when the picture's size is known
   /// Null where the command draws no picture.
   CLI::Option *width = nullptr, *height = nullptr, *ambient = nullptr, *focusPixel = nullptr,
               *mirrorRoughness = nullptr;

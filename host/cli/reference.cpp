@@ -114,8 +114,8 @@ int runReference(ReferenceOptions& o) {
   const int status = files.isComplete() ? 0 : 1;
   if (o.scene.quiet || isStandardOutput(o.stats)) return status;
   const auto& rays = result.rays;
-  tell(fmt::format("{}×{} in double precision: {} rays in {}\n{} primary, {} impulse, {} shadow\n",
-                   o.settings.width, o.settings.height, formatInteger(rays.total()), formatSeconds(elapsed),
+  tell(fmt::format("{} in double precision: {} rays in {}\n{} primary, {} impulse, {} shadow\n",
+                   sizeText(o.settings), formatInteger(rays.total()), formatSeconds(elapsed),
                    formatInteger(rays.primary), formatInteger(rays.impulse), formatInteger(rays.shadow)));
   tell(files.summary());
   return status;

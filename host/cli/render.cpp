@@ -15,6 +15,7 @@
 #include "cli/aovs.h"
 #include "cli/build_failure.h"
 #include "cli/commands.h"
+#include "cli/crop.h"
 #include "cli/error_options.h"
 #include "cli/guard.h"
 #include "cli/option_kinds.h"
@@ -238,7 +239,7 @@ int runRender(RenderOptions& o) {
   const auto start = Clock::now();
   OutputCheck check = checkOutputs(o);
   for (const auto& aov : o.aovs) askForAovs(o.settings, {aov.name});
-  const FloatImage reference = readReference(o);
+  FloatImage reference = readReference(o);
   if (!o.reference.empty() && reference.hadAlpha != o.settings.alpha)
     warn(fmt::format(
         "--reference: {} has {} alpha channel, but the picture has {}: where the background shows, "
@@ -257,6 +258,7 @@ int runRender(RenderOptions& o) {
       o.withReference ? std::max(kTriangleBytes, kReferenceTriangleBytes) : kTriangleBytes;
   Scene scene = loadScene(o.scene, {triangle, kRuntimeBytes, pictureBytes}, o.settings, budget, notices);
   for (const auto& file : notices.files) check.reads(file);
+  if (o.settings.crop && !o.reference.empty()) reference = cutOut(reference, *o.settings.crop);
   if (trace) trace->phase("load", start);
   const double load = since(start);
   if (o.explain) {

@@ -31,6 +31,7 @@ constexpr std::array kRows{
     Row{"target-error", "Picture", "until the error is", Kind::Text},
     Row{"width", "Picture", "width", Kind::Whole},
     Row{"height", "Picture", "height", Kind::Whole},
+    Row{"crop", "Picture", "region", Kind::Text},
     Row{"exposure", "Picture", "exposure, stops", Kind::Real},
     Row{"tone-map", "Picture", "tone map", Kind::Choice},
     Row{"aperture", "Picture", "aperture, m", Kind::Real},
@@ -113,7 +114,7 @@ std::string settingText(const Settings& settings, const std::string& id) {
   const auto found = json.find(keyOf(id));
   if (found == json.end()) throw std::invalid_argument(fmt::format("'{}' is no setting", id));
   if (found->is_boolean()) return found->get<bool>() ? "on" : "off";
-  if (found->is_null()) return "auto";
+  if (found->is_null()) return id == "crop" ? "none" : "auto";
   if (found->is_string()) return found->get<std::string>();
   if (found->is_number_float()) return fmt::format("{:.7g}", found->get<double>());
   return found->dump();
@@ -133,6 +134,8 @@ void setSetting(Settings& settings, const std::string& id, const std::string& te
     options.app.parse(text.empty() ? std::vector<std::string>{text, fmt::format("--{}", id)}
                                    : std::vector<std::string>{fmt::format("--{}={}", id, text)});
   }
+  if (options.scene.crop)
+    options.settings.crop = regionOf(*options.scene.crop, options.settings.width, options.settings.height);
   settings = options.settings;
 }
 

@@ -34,7 +34,7 @@ constexpr int kRaysPerPixel = 64;
 struct ViewOptions {
   SceneOptions scene;
   Settings settings;
-  fs::path script, kernelFolder;
+  fs::path script, kernelFolder, reference;
   bool isLight = false;
 };
 
@@ -74,7 +74,8 @@ class Sources {
     MemoryBudget budget = budgetOf(options);
     Scene scene = loadScene(options, kCosts, settings, budget, notices);
     options.quiet = options_.quiet;
-    options_ = options;  // what could not be read is not asked for again
+    options.crop.reset();  // from now on the window's
+    options_ = options;    // what could not be read is not asked for again
     allowedPicture_ = pictureBytes(settings);
     notes = notices.warnings;
     notes.insert(notes.end(), notices.notes.begin(), notices.notes.end());
@@ -123,6 +124,12 @@ std::vector<std::uint8_t> codesOf(const FloatImage& radiance, const Scene& scene
   for (std::size_t i = 0; i < rgb.size() / 3; ++i)
     for (std::size_t c = 0; c < 3; ++c) rgba[4 * i + c] = rgb[3 * i + c];
   return rgba;
+}
+
+view::Reference referenceOf(const fs::path& file) {
+  view::Reference reference{readFloatImage(file), !isToneMapped(file), file.filename().string()};
+  if (reference.light.channels < 3) throw InputError(fmt::format("{}: it has no colours", file.string()));
+  return reference;
 }
 
 /// Options of a camera, as `info` and the window print them.
@@ -179,6 +186,10 @@ int runView(ViewOptions& o) {
   };
   services.checkPicture = [sources](const Settings& settings) { sources->checkPicture(settings); };
   services.codes = codesOf;
+  services.stops = [](const FloatImage& radiance, const Scene& scene, const Settings& settings) {
+    return lookOf(radiance, scene, settings, {"a.png"}, true).stops;
+  };
+  services.readReference = referenceOf;
   services.cameraText = viewpointText;
   services.camera = cameraOf;
   services.save = savePictures;
@@ -193,6 +204,8 @@ int runView(ViewOptions& o) {
   services.compiler = "/proc/self/exe";
   if (!o.kernelFolder.empty()) services.kernelFolder = o.kernelFolder;
   view::Viewer viewer(std::move(services), o.settings, o.scene.file);
+
+  if (!o.reference.empty()) viewer.set("reference", o.reference.string());
 
   view::WindowOptions window;
   window.title =
@@ -225,6 +238,10 @@ void addView(CLI::App& app, int& status) {
   c->add_flag("--light", o->isLight, "dark letters on a light ground [off]");
   addFile(*c, "--script", o->script, "FILE",
           "keys, mouse, settings, screenshots and expectations, a command a line: host/view/README.md");
+  addFile(*c, "--compare", o->reference, "FILE",
+          "show a reference of the picture's size beside it, split by a line: an .exr or .hdr (radiance), or "
+          "a .png "
+          "or .jpg (codes)");
   addFile(*c, "--kernels", o->kernelFolder, "FOLDER",
           "read kernels from here, not from the program (for developers)");
   c->footer("Example: whittle view scenes/cornell_box.glb\nH in the window shows its keys.");

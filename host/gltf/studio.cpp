@@ -9,15 +9,15 @@ namespace whittle {
 namespace {
 
 /// The studio stands upright, its front where the camera looks.
-struct Frame {
+struct CameraFrame {
   glm::dvec3 forward, right, up{0, 1, 0};
 };
 
-Frame frameOf(const Camera& camera) {
+CameraFrame frameOf(const Camera& camera) {
   glm::dvec3 forward(camera.forward.x, 0, camera.forward.z);
   if (!(glm::length(forward) > 1e-3)) forward = {camera.up.x, 0, camera.up.z};  // from above or below
   if (!(glm::length(forward) > 1e-3)) forward = {0, 0, -1};
-  Frame frame;
+  CameraFrame frame;
   frame.forward = glm::normalize(forward);
   frame.right = glm::cross(frame.forward, frame.up);
   return frame;
@@ -37,11 +37,11 @@ constexpr std::array kLamps{
     Lamp{"studio rim", {0.3, 1.0, 0.7}, 1.0F, false, 2.5, 0.3},  // above what a level camera sees
 };
 
-glm::dvec3 towards(const Frame& frame, const Lamp& lamp) {
+glm::dvec3 towards(const CameraFrame& frame, const Lamp& lamp) {
   return glm::normalize(lamp.place.x * frame.right + lamp.place.y * frame.up + lamp.place.z * frame.forward);
 }
 
-glm::dvec3 radianceFrom(const Frame& frame, const glm::dvec3& d) {
+glm::dvec3 radianceFrom(const CameraFrame& frame, const glm::dvec3& d) {
   const glm::dvec3 horizon(0.075, 0.08, 0.087), zenith(0.32, 0.34, 0.36), nadir(0.03, 0.03, 0.03);
   const double height = std::abs(d.y);
   glm::dvec3 radiance = glm::mix(horizon, d.y > 0 ? zenith : nadir, height);
@@ -55,7 +55,7 @@ glm::dvec3 radianceFrom(const Frame& frame, const glm::dvec3& d) {
 }  // namespace
 
 std::vector<Light> studioLights(const Camera& camera) {
-  const Frame frame = frameOf(camera);
+  const CameraFrame frame = frameOf(camera);
   std::vector<Light> lights;
   for (const Lamp& lamp : kLamps) {
     Light light;
@@ -71,7 +71,7 @@ std::vector<Light> studioLights(const Camera& camera) {
 
 Background studioBackground(const Camera& camera) {
   constexpr int kWidth = 128, kHeight = 64;
-  const Frame frame = frameOf(camera);
+  const CameraFrame frame = frameOf(camera);
   Background background;
   background.radiance = glm::vec3(1.0F);
   background.width = kWidth;

@@ -91,8 +91,30 @@ void refuseDamagedExr(const fs::path& path) {
 
 }  // namespace
 
+FloatImage blackImage(const Settings& settings, int channels) {
+  const Region region = tracedRegion(settings);
+  FloatImage image{region.width, region.height, channels,
+                   std::vector<float>(region.pixels() * static_cast<std::size_t>(channels))};
+  if (settings.crop) image.frame = {settings.width, settings.height, region.x, region.y};
+  return image;
+}
+
+FloatImage cutOut(const FloatImage& image, const Region& region) {
+  FloatImage part{region.width, region.height, image.channels, {}, image.hadAlpha, {}};
+  part.frame = {image.width, image.height, region.x, region.y};
+  part.pixels.reserve(region.pixels() * static_cast<std::size_t>(image.channels));
+  for (int y = region.y; y < region.y + region.height; ++y) {
+    const auto row =
+        image.pixels.begin() + (static_cast<std::ptrdiff_t>(y) * image.width + region.x) * image.channels;
+    part.pixels.insert(part.pixels.end(), row,
+                       row + static_cast<std::ptrdiff_t>(region.width) * image.channels);
+  }
+  return part;
+}
+
 FloatImage joined(const std::vector<const FloatImage*>& images) {
   FloatImage all{images.front()->width, images.front()->height, 0, {}};
+  all.frame = images.front()->frame;
   for (const FloatImage* image : images) all.channels += image->channels;
   const std::size_t pixels = static_cast<std::size_t>(all.width) * all.height;
   const auto channels = static_cast<std::size_t>(all.channels);

@@ -12,8 +12,16 @@
 
 #include "image/image_header.h"
 #include "scene/scene.h"
+#include "scene/settings.h"
 
 namespace whittle {
+
+/// The picture that an image is a region of, and the region's place in it; without a size: the image is no
+/// region.
+struct Frame {
+  int width = 0, height = 0;
+  int x = 0, y = 0;
+};
 
 /// Linear floats, interleaved channels, row 0 at the top.
 struct FloatImage {
@@ -22,7 +30,14 @@ struct FloatImage {
   int channels = 3;
   std::vector<float> pixels;  ///< width·height·channels
   bool hadAlpha = false;      ///< in the file that it was read from
+  Frame frame{};              ///< of a region; an .exr has it as its display window
 };
+
+/// Black, of what the settings have traced: the picture, or a region in its frame.
+FloatImage blackImage(const Settings& settings, int channels);
+
+/// The pixels of a region of an image, in the image's frame.
+FloatImage cutOut(const FloatImage& image, const Region& region);
 
 /// The channels of several images of one size side by side, in one.
 FloatImage joined(const std::vector<const FloatImage*>& images);

@@ -16,9 +16,6 @@
 namespace whittle {
 namespace {
 
-/// Keeps the relative error finite where the reference is black: a tenth of white counts as the eye's floor.
-constexpr double kRelativeFloor = 0.01;
-
 struct RowSums {
   double squared = 0, relative = 0, maxAbs = 0;
   std::uint64_t differing = 0, nonFinite = 0, nonFiniteReference = 0;

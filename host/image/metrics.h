@@ -7,6 +7,10 @@
 
 namespace whittle {
 
+/// Added to the reference's square in relMse, which stays finite where that is black: a tenth of white counts
+/// as the eye's floor.
+inline constexpr double kRelativeFloor = 0.01;
+
 /// All over the colour channels of all pixels, in double, in a fixed order: the same
 /// bits for any number of threads.
 struct ImageMetrics {

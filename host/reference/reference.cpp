@@ -17,21 +17,19 @@
 namespace whittle {
 namespace {
 
-FloatImage emptyImage(const Settings& settings, int channels) {
-  const std::size_t size = static_cast<std::size_t>(settings.width) * settings.height * channels;
-  return {settings.width, settings.height, channels, std::vector<float>(size)};
-}
-
 /// What rows count for themselves, so that the sum does not depend on threads.
 struct RowCounts {
   RayCounts rays;
   std::uint64_t nonFinite = 0;
 };
 
-void traceRow(const reference::World& world, int y, ReferenceResult& result, RowCounts& counts) {
-  for (int x = 0; x < world.settings.width; ++x) {
-    const reference::PixelResult pixel = reference::traceOnePixel(world, x, y, counts.rays);
-    const std::size_t i = static_cast<std::size_t>(y) * world.settings.width + x;
+/// Row `row` of the region.
+void traceRow(const reference::World& world, const Region& region, int row, ReferenceResult& result,
+              RowCounts& counts) {
+  for (int column = 0; column < region.width; ++column) {
+    const reference::PixelResult pixel =
+        reference::traceOnePixel(world, region.x + column, region.y + row, counts.rays);
+    const std::size_t i = static_cast<std::size_t>(row) * region.width + column;
     for (int c = 0; c < 3; ++c) result.radiance.pixels[3 * i + c] = static_cast<float>(pixel.radiance[c]);
     if (world.settings.alpha)
       result.alpha.pixels[i] = static_cast<float>(std::clamp(1 - pixel.transmittance, 0.0, 1.0));
@@ -49,18 +47,19 @@ ReferenceResult render(const Scene& scene, const Settings& settings,
   const reference::World world{scene, settings, triangles, camera};
 
   ReferenceResult result;
-  result.radiance = emptyImage(settings, 3);
-  if (settings.alpha) result.alpha = emptyImage(settings, 1);
-  result.primitive = emptyImage(settings, 1);
-  result.depth = emptyImage(settings, 1);
-  std::vector<RowCounts> rows(settings.height);
+  result.radiance = blackImage(settings, 3);
+  if (settings.alpha) result.alpha = blackImage(settings, 1);
+  result.primitive = blackImage(settings, 1);
+  result.depth = blackImage(settings, 1);
+  const Region region = tracedRegion(settings);
+  std::vector<RowCounts> rows(region.height);
   std::mutex progressMutex;
   int done = 0;
-  tbb::parallel_for(0, settings.height, [&](int y) {
-    traceRow(world, y, result, rows[y]);
+  tbb::parallel_for(0, region.height, [&](int row) {
+    traceRow(world, region, row, result, rows[row]);
     const std::lock_guard lock(progressMutex);
     ++done;
-    if (progress) progress(done, settings.height);
+    if (progress) progress(done, region.height);
   });
   for (const RowCounts& row : rows) {
     result.rays.primary += row.rays.primary;
@@ -79,7 +78,7 @@ ReferenceResult render(const Scene& scene, const Settings& settings,
 std::uint64_t referencePictureBytes(const Settings& settings) {
   // Radiance, triangle, distance; what encodes them.
   const std::uint64_t pixel = 5 * sizeof(float) + 12 + (settings.alpha ? 2 * sizeof(float) : 0);
-  return pixel * static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height);
+  return pixel * tracedRegion(settings).pixels();
 }
 
 namespace {

@@ -26,9 +26,7 @@ std::uint64_t bytesOf(const Scene& s) {
   return bytes;
 }
 
-std::uint64_t pixelsOf(const Settings& s) {
-  return static_cast<std::uint64_t>(s.width) * static_cast<std::uint64_t>(s.height);
-}
+std::uint64_t pixelsOf(const Settings& s) { return tracedRegion(s).pixels(); }
 
 /// Of the device's buffers; of queues the part that the picture's samples reach.
 class DeviceBytes {
@@ -98,8 +96,9 @@ std::uint64_t peakBytes(const Scene& scene, const RenderPlan& plan, std::uint64_
   // Of each pixel what PixelRecorder holds, and its pictures.
   const std::uint64_t recorded =
       plan.settings.bounceAov || plan.settings.costAov ? (4 + 3) * sizeof(float) * pixels : 0;
-  const std::uint64_t rendering = recorded + drawn + device.all() + channels * sizeof(float) * pixels +
-                                  (device.named("aovs") > 0 ? device.named("aovs") * 2 : 0);
+  const std::uint64_t rendering =
+      recorded + drawn + device.all() + channels * sizeof(float) * pixels +
+      (device.named("aovs") > 0 ? device.named("aovs") * 2 + device.named("pixelOrder") : 0);
   // Encoding: the picture once more, as codes or as floats that do not compress.
   const std::uint64_t writing = drawn + 2 * channels * sizeof(float) * pixels;
   const std::uint64_t own = std::max({whole + build, whole + upload, uploading, rendering, writing});

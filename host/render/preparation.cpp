@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cl/device.h"
+#include "report/text.h"
 #include "scene/byte_counts.h"
 #include "scene/camera.h"
 #include "scene/free_array.h"
@@ -22,6 +23,9 @@ void checkSettings(const Settings& s) {
   if (s.width < 1 || s.height < 1 || s.width > 65535 || s.height > 65535)
     throw InputError(
         fmt::format("--width/--height: {}×{} is not between 1×1 and 65535×65535", s.width, s.height));
+  if (s.crop && !liesWithin(*s.crop, s.width, s.height))
+    throw InputError(fmt::format("--crop: {},{},{},{} lies outside the picture of {}×{}", s.crop->x,
+                                 s.crop->y, s.crop->width, s.crop->height, s.width, s.height));
   if (s.bounces < 1) throw InputError("--bounces: at least 1");
   if (s.transparentBounces < 0) throw InputError("--transparent-bounces: at least 0");
   if (s.ambient && !(*s.ambient >= 0.0F && *s.ambient <= kLargestAmbient))
@@ -53,15 +57,16 @@ Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo&
 
 PictureBuffers allocatePicture(Compute& compute, const Settings& settings, const Decisions& decisions,
                                Compute::Memory memory) {
-  const std::size_t pixels = static_cast<std::size_t>(settings.width) * settings.height;
+  const Region region = tracedRegion(settings);
+  const std::size_t pixels = region.pixels();
   const std::size_t film = pixels * sizeof(float) *
                            filmPlanes(settings.raysPerPixel, decisions.features.has(Feature::COVERAGE)),
                     order = pixels * sizeof(std::uint32_t);
   const std::size_t aovs = decisions.features.has(Feature::AOVS) ? pixels * AOV_PLANES * sizeof(float) : 0;
   const DeviceInfo& device = compute.device();
   if (film + order + aovs > device.globalMemory)
-    throw ClError(fmt::format("a picture of {}×{} needs {} for its film but {} has {}", settings.width,
-                              settings.height, formatBytes(film + order + aovs), device.name,
+    throw ClError(fmt::format("a picture of {} needs {} for its film but {} has {}", sizeText(settings),
+                              formatBytes(film + order + aovs), device.name,
                               formatBytes(device.globalMemory)));
   PictureBuffers picture;
   picture.film = compute.allocate("film", film);
@@ -73,9 +78,7 @@ PictureBuffers allocatePicture(Compute& compute, const Settings& settings, const
         compute.allocate("passBlocks", SampleCounts(pixels).blocks() * sizeof(std::uint32_t));
   }
   if (memory == Compute::Memory::SizesOnly) return picture;
-  compute.write(picture.order, makePixelOrder(static_cast<std::uint32_t>(settings.width),
-                                              static_cast<std::uint32_t>(settings.height))
-                                   .data());
+  compute.write(picture.order, makePixelOrder(region).data());
   compute.fillZero(picture.film);
   return picture;
 }
@@ -101,7 +104,7 @@ TriTree buildTree(const Scene& scene, const Decisions& decisions) {
 }
 
 std::uint32_t queueCapacity(const Settings& s) {
-  const std::uint64_t samples = static_cast<std::uint64_t>(s.width) * s.height * s.raysPerPixel;
+  const std::uint64_t samples = tracedRegion(s).pixels() * static_cast<std::uint64_t>(s.raysPerPixel);
   const std::uint64_t wanted = std::min<std::uint64_t>(static_cast<std::uint64_t>(s.wavefront), 2 * samples);
   return static_cast<std::uint32_t>((std::max(wanted, std::uint64_t{2} * LONG_RUN) + 63) / 64 * 64);
 }

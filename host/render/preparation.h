@@ -33,7 +33,7 @@ struct Decisions {
 /// Throws InputError: no such camera, a work-group that the device cannot have.
 Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo& device);
 
-/// The picture on the device, and the order of its pixels.
+/// What is traced of the picture, on the device, and the order of its pixels.
 struct PictureBuffers {
   Buffer order, film, aovs;
   Buffer passOrder, passBlocks;  ///< with Settings::adaptive

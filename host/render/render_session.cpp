@@ -86,7 +86,9 @@ std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& set
   if (picture.aovs) {
     std::vector<float> planes(picture.aovs.bytes / sizeof(float));
     compute.read(picture.aovs, 0, picture.aovs.bytes, planes.data());
-    aovs = splitAovs(settings.width, settings.height, planes);
+    std::vector<std::uint32_t> order(picture.order.bytes / sizeof(std::uint32_t));
+    compute.read(picture.order, 0, picture.order.bytes, order.data());
+    aovs = splitAovs(settings, order, planes);
     aovs["samples"] = loop.samples();
   }
   if (settings.errorAov && loop.counts().least() >= 2) aovs["error"] = loop.errors();
@@ -121,7 +123,7 @@ struct RenderSession::State {
   };
 
   struct PictureKey {
-    int width = 0, height = 0;
+    Region region;
     std::size_t planes = 0;
     bool aovs = false, adaptive = false;
     bool operator==(const PictureKey&) const = default;
@@ -215,7 +217,7 @@ OpenDevice& RenderSession::State::openFor(const Settings& settings, const Render
 /// An empty film, and the order of its pixels.
 void RenderSession::State::providePicture(Compute& compute, const Settings& settings,
                                           const Decisions& decisions) {
-  const PictureKey wanted{settings.width, settings.height,
+  const PictureKey wanted{tracedRegion(settings),
                           filmPlanes(settings.raysPerPixel, decisions.features.has(Feature::COVERAGE)),
                           decisions.features.has(Feature::AOVS), settings.adaptive};
   work.picture = !picture.serves(wanted);
@@ -301,7 +303,8 @@ WavefrontSetup setupOf(const Scene& scene, const DeviceScene& onDevice, const Se
           constantsToDevice(scene, camera, settings),
           static_cast<std::uint32_t>(settings.bounces),
           static_cast<std::uint32_t>(mostHits(decisions.features, settings)),
-          decisions.compactChunk};
+          decisions.compactChunk,
+          static_cast<std::uint32_t>(tracedRegion(settings).pixels())};
 }
 
 StageRunner runnerOf(Compute& compute, const std::vector<cl::Program>& programs, const Decisions& decisions,
@@ -336,11 +339,11 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
   Wavefront wavefront(compute, stages, *kept.queues.value, setup, picture.film, picture.aovs);
   std::optional<PixelRecorder> recorder;
   if (settings.bounceAov || settings.costAov)
-    recorder.emplace(compute, *kept.queues.value, decisions.features, settings.width, settings.height);
+    recorder.emplace(compute, *kept.queues.value, decisions.features, settings);
   wavefront.observe(recorder ? &*recorder : nullptr);
   SamplingLoop loop(compute, wavefront, settings, hooks,
-                    FilmBuffers{static_cast<std::size_t>(settings.width) * settings.height, picture.order,
-                                picture.film, picture.passOrder, picture.passBlocks});
+                    FilmBuffers{tracedRegion(settings).pixels(), picture.order, picture.film,
+                                picture.passOrder, picture.passBlocks});
   const auto resultSoFar = [&] {
     RenderResult result{loop.picture(), {}, readAovs(compute, settings, picture, loop, recorder), {}};
     if (settings.alpha) result.alpha = loop.alpha();
@@ -399,7 +402,7 @@ std::vector<RayTree> RenderSession::explain(const Scene& scene, const Settings& 
     wavefront.trace({order, none, 1, static_cast<std::uint32_t>(sample), 1},
                     {[](double, bool) { return true; }});
     RayTree tree{recorder.rays(), {}};
-    const std::size_t planeBytes = static_cast<std::size_t>(settings.width) * settings.height * sizeof(float);
+    const std::size_t planeBytes = setup.pixels * sizeof(float);
     for (int c = 0; c < 3; ++c) {
       float channel = 0.0F;
       compute.read(film, static_cast<std::size_t>(c) * planeBytes, sizeof(float), &channel);

@@ -25,6 +25,7 @@ struct RenderProgress {
   std::uint64_t rays = 0;
 };
 
+/// With Settings::crop all images are of that region, in its frame.
 struct RenderResult {
   FloatImage radiance;  ///< RGB, W/(m² sr)
   FloatImage alpha;     ///< with Settings::alpha, 1 channel: the share of each pixel that the scene covers
@@ -51,7 +52,7 @@ struct RenderHooks {
   /// orthographic, or has a near plane that cuts, needs those features kept. Null: the scene's.
   const Camera* camera = nullptr;
   std::optional<std::filesystem::path> kernelFolder;  ///< kernels from here instead of the binary
-  /// Of the picture's size: each look at the film says how far it is from this.
+  /// Of the result's size: each look at the film says how far it is from this.
   const FloatImage* reference = nullptr;
   /// The `whittle` binary, to compile kernels with a second process (compilerProcessMain); empty: this one
   /// does it all.

@@ -219,25 +219,25 @@ void SamplingLoop::eachPart(const Visit& visit) {
 }
 
 FloatImage SamplingLoop::picture() {
-  FloatImage image{settings_.width, settings_.height, 3, std::vector<float>(3 * counts_.pixels())};
+  FloatImage image = blackImage(settings_, 3);
   eachPart([&](const FilmPart& part) { resolveFilm(part, counts_, image); });
   return image;
 }
 
 FloatImage SamplingLoop::alpha() {
-  FloatImage image{settings_.width, settings_.height, 1, std::vector<float>(counts_.pixels())};
+  FloatImage image = blackImage(settings_, 1);
   eachPart([&](const FilmPart& part) { resolveAlpha(part, counts_, image); });
   return image;
 }
 
 FloatImage SamplingLoop::errors() {
-  FloatImage image{settings_.width, settings_.height, 1, std::vector<float>(counts_.pixels())};
+  FloatImage image = blackImage(settings_, 1);
   eachPart([&](const FilmPart& part) { showErrors(part, counts_, image); });
   return image;
 }
 
 FloatImage SamplingLoop::samples() {
-  FloatImage image{settings_.width, settings_.height, 1, std::vector<float>(counts_.pixels())};
+  FloatImage image = blackImage(settings_, 1);
   eachPart([&](const FilmPart& part) { showSamples(part, counts_, image); });
   return image;
 }

@@ -168,7 +168,7 @@ std::string errorLines(const Stats& s) {
 }  // namespace
 
 std::string renderSummary(const Stats& s) {
-  std::string out = fmt::format("{}×{}, {}, {}\n", s.settings.width, s.settings.height,
+  std::string out = fmt::format("{}, {}, {}\n", sizeText(s.settings),
                                 formatSome(s.scene.triangles, "triangle", "triangles"), raysPerPixel(s));
   out += fmt::format("{} rays in {}: {}\n", formatInteger(s.rays.total()), formatSeconds(s.time.render),
                      formatRate(megaRate(s.rays.total(), s.time.render) * 1e6));

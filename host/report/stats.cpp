@@ -1,6 +1,8 @@
 // Statistics as JSON; the names are a contract with scripts.
 #include "report/stats.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,6 +29,9 @@ Json settingToJson(const T& value) {
 }
 Json settingToJson(float value) { return jsonFloat(value); }
 Json settingToJson(const std::optional<float>& value) { return value ? Json(jsonFloat(*value)) : Json(); }
+Json settingToJson(const std::optional<Region>& r) {
+  return r ? Json(fmt::format("{},{},{},{}", r->x, r->y, r->width, r->height)) : Json();
+}
 /// Bits of features, by name.
 Json settingToJson(std::uint64_t features) {
   Json names = Json::array();

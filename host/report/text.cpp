@@ -62,6 +62,13 @@ std::string formatRate(double raysPerSecond) {
                               : fmt::format("{:.0f} krays/s", raysPerSecond * 1e-3);
 }
 
+std::string sizeText(const Settings& s) {
+  const std::string whole = fmt::format("{}×{}", s.width, s.height);
+  return s.crop
+             ? fmt::format("{}×{} at {},{} of {}", s.crop->width, s.crop->height, s.crop->x, s.crop->y, whole)
+             : whole;
+}
+
 std::string formatSome(std::uint64_t count, const std::string& one, const std::string& many) {
   if (count == 0) return "no " + many;
   return count == 1 ? "1 " + one : formatInteger(count) + " " + many;

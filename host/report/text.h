@@ -22,6 +22,8 @@ std::string formatSeconds(double seconds);
 std::string formatRate(double raysPerSecond);
 /// A target error as it was asked for: "0.002 W/(m² sr)", "1 % of the mean".
 std::string targetText(const Settings& settings);
+/// Of what is traced: "640×360", "100×50 at 20,30 of 640×360".
+std::string sizeText(const Settings& settings);
 /// "1 light", "3 lights", "no lights".
 std::string formatSome(std::uint64_t count, const std::string& one, const std::string& many);
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "scene/region.h"
+
 namespace whittle {
 
 enum class Search : std::uint8_t { Auto, Tree, Array };
@@ -40,6 +42,7 @@ constexpr const auto& wordsOf(Lanes) { return kLanesWords; }
 struct Settings {
   int width = 640;                  ///< pixels
   int height = 360;                 ///< pixels
+  std::optional<Region> crop;       ///< these pixels alone are traced; unset: all of them
   std::string camera = "0";         ///< name or index
   double backgroundRotation = 0.0;  ///< degrees about +Y, see Background; loading has put it into the scene
   float backgroundStrength = 1.0F;  ///< factor of the background's radiance; the same
@@ -99,6 +102,7 @@ template <typename Visit>
 void eachSetting(const Settings& s, const Visit& visit) {
   visit("width", s.width);
   visit("height", s.height);
+  visit("crop", s.crop);
   visit("camera", s.camera);
   visit("exposure", s.exposure);
   visit("toneMap", s.toneMap);
@@ -139,6 +143,9 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("targetErrorRelative", s.targetErrorRelative);
   visit("timeLimit", s.timeLimit);
 }
+
+/// What is traced of the picture.
+inline Region tracedRegion(const Settings& s) { return s.crop.value_or(Region{0, 0, s.width, s.height}); }
 
 inline bool hasErrorTarget(const Settings& s) { return s.targetError > 0.0 || s.targetErrorRelative > 0.0; }
 

@@ -5,29 +5,37 @@
 #include <cmath>
 #include <utility>
 
+#include "image/tone_map.h"
+
 namespace whittle::view {
 
+namespace {
+
+/// Lightness, green to red, blue to yellow: both ends lie inside sRGB, and so does the line between them.
+constexpr std::array<double, 3> kDarkBlue{0.25, 0.0, -0.13}, kLightYellow{0.96, -0.04, 0.14};
+
+/// OKLab to linear sRGB, by the matrices of its definition.
+std::array<double, 3> linearOf(const std::array<double, 3>& lab) {
+  const double l = lab[0] + 0.3963377774 * lab[1] + 0.2158037573 * lab[2],
+               m = lab[0] - 0.1055613458 * lab[1] - 0.0638541728 * lab[2],
+               s = lab[0] - 0.0894841775 * lab[1] - 1.2914855480 * lab[2];
+  const double l3 = l * l * l, m3 = m * m * m, s3 = s * s * s;
+  return {4.0767416621 * l3 - 3.3077115913 * m3 + 0.2309699292 * s3,
+          -1.2684380046 * l3 + 2.6097574011 * m3 - 0.3413193965 * s3,
+          -0.0041960863 * l3 - 0.7034186147 * m3 + 1.7076147010 * s3};
+}
+
+}  // namespace
+
 Code rampAt(double share) {
-  constexpr std::array<std::array<double, 3>, 6> kAnchors{
-      {{8, 10, 40}, {60, 30, 125}, {150, 45, 120}, {220, 85, 65}, {248, 165, 50}, {252, 250, 190}}};
-  constexpr double kLast = kAnchors.size() - 1;
-  const double at = share > 0 ? std::min(share, 1.0) * kLast : 0.0;
-  const auto below = static_cast<std::size_t>(std::min(std::floor(at), kLast - 1));
+  share = share > 0 ? std::min(share, 1.0) : 0.0;
+  std::array<double, 3> lab{};
+  for (std::size_t i = 0; i < 3; ++i) lab[i] = kDarkBlue[i] + share * (kLightYellow[i] - kDarkBlue[i]);
+  const auto linear = linearOf(lab);
   Code code{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double a = kAnchors[below][c], b = kAnchors[below + 1][c];
-    code[c] = static_cast<std::uint8_t>(std::lround(a + (b - a) * (at - static_cast<double>(below))));
-  }
+  for (std::size_t i = 0; i < 3; ++i)
+    code[i] = static_cast<std::uint8_t>(std::lround(255 * srgbEncode(std::clamp(linear[i], 0.0, 1.0))));
   return code;
-}
-
-double ColorScale::shareOf(double value) const {
-  if (isLogarithmic) return value > 0 ? std::log(value / low) / std::log(high / low) : 0.0;
-  return (value - low) / (high - low);
-}
-
-double ColorScale::valueAt(double share) const {
-  return isLogarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
 }
 
 ColorScale logarithmicScale(double low, double high, double decades, std::string quantity) {

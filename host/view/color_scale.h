@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -9,8 +10,9 @@ namespace whittle::view {
 
 using Code = std::array<std::uint8_t, 3>;  ///< sRGB
 
-/// share in [0, 1] (what lies outside is clamped, NaN is 0) on a ramp from dark blue over red to pale yellow,
-/// whose luminance only rises.
+/// share in [0, 1] (what lies outside is clamped, NaN is 0) on a straight line in OKLab (Ottosson 2020) from
+/// dark blue to light yellow: equal steps look equal, it grows lighter all the way, and blue against yellow
+/// is what people with a red-green deficiency tell apart.
 Code rampAt(double share);
 
 /// What a picture's colours mean.
@@ -19,8 +21,14 @@ struct ColorScale {
   bool isLogarithmic = false;
   std::string quantity;  ///< with its unit: "standard error, W/(m² sr)"
 
-  double shareOf(double value) const;  ///< in [0, 1] within the ends
-  double valueAt(double share) const;
+  /// In [0, 1] within the ends.
+  double shareOf(double value) const {
+    if (isLogarithmic) return value > 0 ? std::log(value / low) / std::log(high / low) : 0.0;
+    return (value - low) / (high - low);
+  }
+  double valueAt(double share) const {
+    return isLogarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
+  }
   Code at(double value) const { return rampAt(shareOf(value)); }
 };
 

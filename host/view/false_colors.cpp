@@ -91,12 +91,12 @@ FalseColors onScale(const std::vector<double>& values, const ColorScale& scale) 
 
 /// Decades of a logarithmic ramp: more than an eye tells apart, few enough that one outlier does not flatten
 /// it.
-constexpr double kDecades = 4;
+constexpr double kRampDecades = 4;
 
 FalseColors onLogarithmicScale(const FloatImage& image, const char* quantity) {
   const auto values = sumsOf(image);
   const auto range = rangeOf(values);
-  return onScale(values, logarithmicScale(range.first, range.second, kDecades, quantity));
+  return onScale(values, logarithmicScale(range.first, range.second, kRampDecades, quantity));
 }
 
 FalseColors bounceColors(const FloatImage& bounce) {

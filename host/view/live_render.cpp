@@ -6,6 +6,7 @@
 
 #include "analysis/feature.h"
 #include "scene/input_error.h"
+#include "view/region_picture.h"
 
 namespace whittle::view {
 namespace {
@@ -125,7 +126,7 @@ void LiveRender::show(RenderResult result, std::uint64_t number, bool coarse, bo
     // A stopped request's last pass may lack samples of some pixels.
     if (number != asked_) return;
     if (shown_.request != number) progress_.firstSeconds = since(askedAt_);
-    shown_ = {std::make_shared<const RenderResult>(std::move(result)), number, coarse, finished};
+    shown_ = {std::make_shared<const RenderResult>(std::move(result)), number, rendering_, coarse, finished};
   }
   wake_();
 }
@@ -156,6 +157,7 @@ RenderHooks LiveRender::hooksFor(std::uint64_t number, bool coarse) {
 
 void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
   take(request);
+  rendering_ = request.settings;
   const Scene& scene = *request.scene;
   Settings settings = request.settings;
   settings.keepFeatures |= kOfCamera;
@@ -164,6 +166,7 @@ void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
     Settings coarse = settings;
     coarse.width /= kCoarse;
     coarse.height /= kCoarse;
+    if (coarse.crop) coarse.crop = coarseRegion(*coarse.crop, coarse.width, coarse.height, kCoarse);
     // The sampler of the full picture, so that nothing else is compiled, but its first pass alone.
     RenderHooks hooks = hooksFor(number, true);
     hooks.camera = &request.camera;

@@ -34,6 +34,7 @@ struct Request {
 struct Shown {
   std::shared_ptr<const RenderResult> result;  ///< null: nothing yet
   std::uint64_t request = 0;                   ///< the one that it answers
+  Settings asked;                              ///< that one's
   bool coarse = false;
   bool finished = false;  ///< nothing more will come for this request
 };
@@ -89,6 +90,7 @@ class LiveRender {
   std::filesystem::path compiler_;
   std::optional<std::filesystem::path> kernelFolder_;
   RenderSession session_;                  ///< of the thread alone
+  Settings rendering_;                     ///< of the request under way; of the thread alone
   std::shared_ptr<const Scene> onDevice_;  ///< of the thread alone
 
   mutable std::mutex mutex_;

@@ -25,7 +25,7 @@ const std::map<std::string, Arity> kCommands{
     {"wait", {1, 2}},     {"key", {1, 1}},     {"drag", {4, 6}},       {"click", {2, 4}},
     {"wheel", {3, 4}},    {"set", {2, 2}},     {"resize", {2, 2}},     {"drop", {1, 1}},
     {"expect", {3, 3}},   {"quit", {0, 0}},    {"screenshot", {1, 1}}, {"print", {1, 1}},
-    {"minimise", {0, 0}}, {"restore", {0, 0}}, {"save-scene", {1, 1}}};
+    {"minimise", {0, 0}}, {"restore", {0, 0}}, {"save-scene", {1, 1}}, {"compare", {1, 1}}};
 
 [[noreturn]] void fail(int line, const std::string& text) {
   throw std::runtime_error(fmt::format("script, line {}: {}", line, text));
@@ -82,9 +82,15 @@ bool Script::wait(Stage& stage, const Command& command) {
   const double waited = stage.now() - *started_;
   if (const auto seconds = number(w[1])) return waited >= *seconds;
   const double patience = w.size() > 2 ? number(w[2]).value_or(kPatience) : kPatience;
-  if (w[1] != "refined" && w[1] != "picture") fail(command.line, fmt::format("wait for '{}'?", w[1]));
+  const auto isThere = [&] {
+    if (w[1] == "picture") return stage.hasPicture();
+    return stage.isFinished() &&
+           (w[1] == "refined" || valueAt(stage.stateJson(), "compare.current") == "true");
+  };
+  if (w[1] != "refined" && w[1] != "picture" && w[1] != "compared")
+    fail(command.line, fmt::format("wait for '{}'?", w[1]));
   // The command before may need a frame to be noticed.
-  if (frame_ > 1 && (w[1] == "refined" ? stage.isFinished() : stage.hasPicture())) return true;
+  if (frame_ > 1 && isThere()) return true;
   if (waited > patience) fail(command.line, fmt::format("waited {:.0f} s for '{}'", waited, w[1]));
   return false;
 }
@@ -141,6 +147,7 @@ bool Script::perform(Stage& stage, const Command& command) {
     if (w[0] == "restore") stage.restore();
     if (w[0] == "drop") stage.drop(w[1]);
     if (w[0] == "save-scene") stage.saveScene(w[1]);
+    if (w[0] == "compare") stage.set("reference", w[1]);  // what is wrong with it is a message
     // One frame later all of the last one is drawn.
     if (w[0] == "screenshot") {
       if (frame_ < 2) return false;

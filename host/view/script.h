@@ -1,11 +1,11 @@
 // Scripts that drive a window, a command a line: what tests, demonstrations and reports of faults are made
 // of.
 //
-//   wait refined [SECONDS] | wait picture [SECONDS] | wait SECONDS
+//   wait refined [SECONDS] | wait picture [SECONDS] | wait compared [SECONDS] | wait SECONDS
 //   key NAME            as "r", "F12", "Escape", "Ctrl+S"
 //   drag X0 Y0 X1 Y1 [left|middle|right]     click X Y [left|middle|right]     wheel X Y STEPS
 //   set SETTING VALUE   resize WIDTH HEIGHT   minimise   restore   drop FILE   screenshot FILE
-//   save-scene FILE
+//   compare FILE   save-scene FILE
 //   expect PATH <|<=|==|!=|>=|> VALUE         of the state as JSON: stats.rays.shadow > 0, view.coarse ==
 //   false print PATH          # a comment           quit
 //

@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "image/metrics.h"
 #include "render/explanation.h"
 #include "view/color_scale.h"
+#include "view/difference.h"
 #include "view/edit_model.h"
 #include "view/live_render.h"
 #include "view/ray_drawing.h"
@@ -19,7 +21,7 @@ namespace whittle::view {
 
 /// Switches the comparison of explained rays with the double-precision reference, as ViewModel::set does the
 /// settings; no control.
-inline constexpr const char* kReferenceSwitch = "reference";
+inline constexpr const char* kReferenceSwitch = "with-reference";
 
 /// One setting as a widget: its value is text, as on the command line.
 struct Control {
@@ -43,6 +45,23 @@ struct Picture {
   std::uint64_t serial = 0;         ///< grows with each new one; 0: there is none yet
   bool coarse = false;
   std::optional<ColorScale> scale;  ///< what its colours mean, where they are a ramp
+};
+
+enum class CompareMode : std::uint8_t { Off, Split, Flip, Difference };
+inline const std::vector<std::string> kCompareModes{"off", "split", "flip", "difference"};
+
+/// A reference beside the picture.
+struct CompareView {
+  CompareMode mode = CompareMode::Off;
+  double split = 0.5;   ///< where the reference begins, a share of the width
+  std::string name;     ///< of the reference; empty: there is none
+  std::string problem;  ///< why the two are not compared
+  bool isOfCodes = false, isRelative = false;
+  Picture reference, difference;        ///< no serial: not there (yet)
+  ErrorScale scale;                     ///< of the difference
+  std::optional<ImageMetrics> figures;  ///< the last there are
+  bool isCurrent = false;               ///< they are of the picture that is shown
+  std::vector<Code> colors;             ///< of this and every other ramp, from the low end
 };
 
 /// An axis-aligned view: from +Z, +X or +Y.
@@ -119,6 +138,12 @@ class ViewModel {
   };
   /// Null: none is asked for, or it is not there yet.
   virtual const Explained* explained() const = 0;
+
+  virtual const CompareView& compared() const = 0;
+  /// What is shown becomes the reference.
+  virtual void keepReference() = 0;
+  /// What alone is rendered anew; none: all of the picture.
+  virtual std::optional<Region> region() const = 0;
 
   /// While a hand is on the camera pictures are coarse first.
   virtual void setMoving(bool isMoving) = 0;

@@ -17,6 +17,7 @@
 #include "report/stats.h"
 #include "scene/input_error.h"
 #include "view/false_colors.h"
+#include "view/region_picture.h"
 
 namespace whittle::view {
 namespace {
@@ -41,6 +42,7 @@ Viewer::Viewer(Services services, const Settings& settings, const std::filesyste
       settings_(settings),
       layer_(kBeauty),
       editor_(owner()),
+      comparison_(services_.readReference, services_.wake),
       live_(services_.wake, services_.compiler, services_.kernelFolder) {
   Control layer;
   layer.id = kLayerControl;
@@ -56,6 +58,10 @@ Viewer::Viewer(Services services, const Settings& settings, const std::filesyste
       "how "
       "many nodes and triangles the searches for its hits visited";
   services_.controls.insert(services_.controls.begin(), layer);
+  const auto comparing = Comparison::controls();
+  const auto afterPicture = std::find_if(services_.controls.begin(), services_.controls.end(),
+                                         [](const Control& c) { return c.group != "Picture"; });
+  services_.controls.insert(afterPicture, comparing.begin(), comparing.end());
   if (!file.empty()) load(file, false);
 }
 
@@ -101,6 +107,9 @@ void Viewer::settle(const Loaded& loaded) {
   take(&Settings::height);
   take(&Settings::camera);
   take(&Settings::ambient);
+  take(&Settings::crop);
+  if (settings_.crop && !liesWithin(*settings_.crop, settings_.width, settings_.height))
+    settings_.crop.reset();
 }
 
 void Viewer::takeOver(Loaded loaded) {
@@ -119,7 +128,7 @@ void Viewer::takeOver(Loaded loaded) {
   for (auto& text : loaded.notes) say(false, std::move(text));
   file_ = scene_->file;
   if (!loaded.keepsCamera) services_.recent.add(file_);
-  if (!loaded.keepsCamera) written_ = {};
+  if (!loaded.keepsCamera) written_ = {}, whole_.reset();
   if (isFirst || !loaded.keepsCamera) camera_ = held(scene_->cameras[findCamera(*scene_, settings_.camera)]);
   ask();
 }
@@ -255,7 +264,7 @@ ViewModel::Explained Viewer::explainedOf(Followed f) {
 }
 
 std::string Viewer::switchReference(const std::string& text) {
-  if (text != "on" && text != "off") return fmt::format("reference: '{}' is not one of on|off", text);
+  if (text != "on" && text != "off") return fmt::format("with-reference: '{}' is not one of on|off", text);
   comparesWithReference_ = text == "on";
   if (explained_) follow(explained_->x, explained_->y);
   return {};
@@ -295,11 +304,11 @@ bool Viewer::update() {
   }
   Shown shown = live_.shown();
   if (shown.result != shown_.result || shown.finished != shown_.finished) {
-    shown_ = std::move(shown);
-    makeCodes();
+    takePicture(std::move(shown));
     sayNeeds();
     isNew = true;
   }
+  isNew |= comparison_.update(messages_);
   const std::string error = live_.progress().error;
   if (error != lastError_) {
     if (!error.empty()) say(true, error);
@@ -309,21 +318,43 @@ bool Viewer::update() {
   return isNew;
 }
 
+void Viewer::takePicture(Shown shown) {
+  const bool isOther = shown.result != shown_.result;
+  shown_ = std::move(shown);
+  if (shown_.result && isOther)
+    whole_ =
+        shown_.asked.crop
+            ? std::make_shared<const RenderResult>(withRegion(whole_.get(), *shown_.result, shown_.asked))
+            : shown_.result;
+  if (isOther) makeCodes();
+}
+
 void Viewer::makeCodes() {
-  if (!shown_.result || !scene_) return;
-  const FloatImage& radiance = shown_.result->radiance;
+  if (!whole_ || !scene_) return;
+  const FloatImage& radiance = whole_->radiance;
+  Settings exposed = settings_;
+  exposed.exposure = services_.stops(radiance, *scene_, settings_);
   picture_.width = radiance.width;
   picture_.height = radiance.height;
   // The layers come with the first picture that is rendered for them.
   FalseColors colors;
-  if (layer_ != kBeauty && shown_.result->aovs.contains(layer_))
-    colors = falseColors(*shown_.result, layer_);
+  if (layer_ != kBeauty && whole_->aovs.contains(layer_))
+    colors = falseColors(*whole_, layer_);
   else
-    colors.codes = services_.codes(radiance, *scene_, settings_);
+    colors.codes = services_.codes(radiance, *scene_, exposed);
   picture_.codes = std::move(colors.codes);
   picture_.scale = std::move(colors.scale);
-  picture_.coarse = shown_.coarse;
+  picture_.coarse = shown_.coarse && !shown_.asked.crop;
   ++picture_.serial;
+  if (!shown_.coarse)
+    comparison_.show(whole_, [codes = services_.codes, scene = scene_, exposed](const FloatImage& light) {
+      return codes(light, *scene, exposed);
+    });
+}
+
+void Viewer::keepReference() {
+  if (!whole_ || picture_.coarse) return say(true, "there is no picture yet");
+  comparison_.keep(whole_->radiance);
 }
 
 bool Viewer::isFinished() const { return shown_.finished && shown_.request == request_; }
@@ -332,6 +363,7 @@ std::string Viewer::value(const std::string& id) const {
   if (id == kLayerControl) return layer_;
   if (id == kReferenceSwitch) return comparesWithReference_ ? "on" : "off";
   if (SceneEditor::isId(id)) return editor_.value(id);
+  if (Comparison::has(id)) return comparison_.value(id);
   return services_.value(settings_, id);
 }
 
@@ -339,12 +371,14 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
   if (id == kLayerControl) return showLayer(text);
   if (id == kReferenceSwitch) return switchReference(text);
   if (SceneEditor::isId(id)) return editor_.set(id, text);
+  if (Comparison::has(id)) return comparison_.set(id, text);
   Settings changed = settings_;
   try {
     services_.set(changed, id, text);
   } catch (const InputError& e) {
     return e.what();
   }
+  if (changed.width != settings_.width || changed.height != settings_.height) changed.crop.reset();
   settings_ = changed;
   if (isOfCodes(id))
     makeCodes();
@@ -361,7 +395,7 @@ std::string Viewer::showLayer(const std::string& layer) {
   const auto& layers = services_.controls.front().words;
   if (std::find(layers.begin(), layers.end(), layer) == layers.end())
     return fmt::format("show: '{}' is not one of {}", layer, fmt::join(layers, "|"));
-  const bool isTraced = layer == kBeauty || (shown_.result && shown_.result->aovs.contains(layer));
+  const bool isTraced = layer == kBeauty || (whole_ && whole_->aovs.contains(layer));
   layer_ = layer;
   if (isTraced)
     makeCodes();
@@ -468,9 +502,9 @@ void Viewer::open(const std::filesystem::path& file) { load(file, false); }
 void Viewer::reload() { load({}, true); }
 
 void Viewer::save() {
-  if (!shown_.result || !scene_) return say(true, "there is no picture yet");
+  if (!whole_ || !scene_) return say(true, "there is no picture yet");
   try {
-    say(false, services_.save(file_.stem(), *shown_.result, *scene_, settings_));
+    say(false, services_.save(file_.stem(), *whole_, *scene_, settings_));
   } catch (const std::exception& e) {
     say(true, e.what());
   }
@@ -499,6 +533,7 @@ std::string Viewer::stateJson() const {
                    {"isCompared", explained_ && !explained_->verdict.empty()},
                    {"parts", explained_ && explained_->parts}};
   state["edit"] = editor_.state();
+  state["compare"] = comparison_.state();
   return state.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

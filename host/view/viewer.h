@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "view/comparison.h"
 #include "view/hand_camera.h"
 #include "view/live_render.h"
 #include "view/recent_files.h"
@@ -35,6 +36,10 @@ struct Services {
   std::function<void(const Settings&)> checkPicture;
   /// Codes of a picture, RGBA.
   std::function<std::vector<std::uint8_t>(const FloatImage&, const Scene&, const Settings&)> codes;
+  /// The exposure of a picture in stops, chosen where the settings leave it open.
+  std::function<float(const FloatImage&, const Scene&, const Settings&)> stops;
+  /// On another thread. Throws InputError.
+  std::function<Reference(const std::filesystem::path&)> readReference;
   std::function<std::string(const Camera&, const glm::dvec3& origin)> cameraText;
   /// Throws InputError.
   std::function<Camera(const Scene&, double aspect, const std::string& text)> camera;
@@ -93,6 +98,10 @@ class Viewer : public ViewModel {
   void closeExplanation() override { explained_.reset(), followed_ = 0; }
   const Explained* explained() const override { return explained_ ? &*explained_ : nullptr; }
 
+  const CompareView& compared() const override { return comparison_.view(); }
+  void keepReference() override;
+  std::optional<Region> region() const override { return settings_.crop; }
+
   void open(const std::filesystem::path& file) override;
   void reload() override;
   std::vector<std::filesystem::path> recentFiles() const override { return services_.recent.files(); }
@@ -137,6 +146,7 @@ class Viewer : public ViewModel {
   double size() const;  ///< of the scene, metres
   glm::dvec3 middle() const;
   HandCamera held(const Camera& camera) const;
+  void takePicture(Shown shown);
   void makeCodes();
   void lookAtFile();
   std::string showLayer(const std::string& layer);
@@ -155,6 +165,8 @@ class Viewer : public ViewModel {
   HandCamera camera_;
   bool isMoving_ = false;
   Shown shown_;
+  /// What of it is seen: with a region the rest is of what was rendered before.
+  std::shared_ptr<const RenderResult> whole_;
   std::uint64_t request_ = 0;
   Picture picture_;
   std::string codesOf_;  ///< the exposure and tone map that the codes were made with
@@ -172,6 +184,7 @@ class Viewer : public ViewModel {
   std::mutex mutex_;            ///< of loaded_ and delivered_
   std::optional<Loaded> loaded_;
   std::optional<Followed> delivered_;
+  Comparison comparison_;
   LiveRender live_;  ///< last: its thread uses services_ and loaded_
 };
 

@@ -21,17 +21,23 @@ double plane(const FilmPart& s, int sum, int compensation, std::size_t pixel) {
   return value(sum) + (compensated ? value(compensation) : 0.0);
 }
 
-FloatImage gather(int width, int height, const std::vector<float>& planes, int first, int channels) {
-  FloatImage image{width, height, channels, {}};
-  const std::size_t pixels = static_cast<std::size_t>(width) * height;
-  image.pixels.resize(pixels * channels);
-  for (std::size_t p = 0; p < pixels; ++p)
-    for (int c = 0; c < channels; ++c)
-      image.pixels[p * channels + c] = planes[static_cast<std::size_t>(first + c) * pixels + p];
+FloatImage gather(FloatImage image, const std::vector<std::uint32_t>& pixelOrder,
+                  const std::vector<float>& planes, int first) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t p = 0; p < pixelOrder.size(); ++p)
+    for (std::size_t c = 0; c < channels; ++c)
+      image.pixels[placeOf(pixelOrder[p], image) * channels + c] =
+          planes[(static_cast<std::size_t>(first) + c) * pixelOrder.size() + p];
   return image;
 }
 
 }  // namespace
+
+std::size_t placeOf(std::uint32_t pixel, const FloatImage& image) {
+  const int x = static_cast<int>(pixel & 0xffffU) - image.frame.x,
+            y = static_cast<int>(pixel >> 16) - image.frame.y;
+  return static_cast<std::size_t>(y) * image.width + x;
+}
 
 std::size_t filmPlanes(int samples, bool coverage) {
   if (samples > 1) return coverage ? FILM_PLANES_COVERAGE : FILM_PLANES;
@@ -39,11 +45,6 @@ std::size_t filmPlanes(int samples, bool coverage) {
 }
 
 namespace {
-
-/// Where pixel p of the part lies in an image.
-std::size_t placeOf(const FilmPart& part, std::size_t p, const FloatImage& image) {
-  return static_cast<std::size_t>(part.pixelOrder[p] >> 16) * image.width + (part.pixelOrder[p] & 0xffffU);
-}
 
 /// Of the mean of n samples of pixel p, averaged over the channels; infinite where squares of the samples
 /// left the range of floats (radiance above 1e19): nothing is known then.
@@ -64,7 +65,7 @@ void resolveFilm(const FilmPart& part, const SampleCounts& counts, FloatImage& i
   for (std::size_t p = 0; p < part.pixelOrder.size(); ++p) {
     const double n = std::max(1U, counts.ofPixel(part.first + p));
     for (int c = 0; c < 3; ++c)
-      image.pixels[placeOf(part, p, image) * 3 + c] =
+      image.pixels[placeOf(part.pixelOrder[p], image) * 3 + c] =
           static_cast<float>(plane(part, FILM_SUM + c, FILM_COMPENSATION + c, p) / n);
   }
 }
@@ -95,21 +96,22 @@ void resolveAlpha(const FilmPart& part, const SampleCounts& counts, FloatImage& 
   for (std::size_t p = 0; p < part.pixelOrder.size(); ++p) {
     const double n = std::max(1U, counts.ofPixel(part.first + p));
     const double clear = plane(part, sum, FILM_TRANSMITTANCE_COMPENSATION, p) / n;
-    image.pixels[placeOf(part, p, image)] = static_cast<float>(std::clamp(1.0 - clear, 0.0, 1.0));
+    image.pixels[placeOf(part.pixelOrder[p], image)] = static_cast<float>(std::clamp(1.0 - clear, 0.0, 1.0));
   }
 }
 
 void showErrors(const FilmPart& part, const SampleCounts& counts, FloatImage& image) {
   for (std::size_t p = 0; p < part.pixelOrder.size(); ++p) {
     const std::uint32_t n = counts.ofPixel(part.first + p);
-    image.pixels[placeOf(part, p, image)] = n >= 2 ? static_cast<float>(std::sqrt(varianceOfMean(part, p, n)))
-                                                   : std::numeric_limits<float>::infinity();
+    image.pixels[placeOf(part.pixelOrder[p], image)] =
+        n >= 2 ? static_cast<float>(std::sqrt(varianceOfMean(part, p, n)))
+               : std::numeric_limits<float>::infinity();
   }
 }
 
 void showSamples(const FilmPart& part, const SampleCounts& counts, FloatImage& image) {
   for (std::size_t p = 0; p < part.pixelOrder.size(); ++p)
-    image.pixels[placeOf(part, p, image)] = static_cast<float>(counts.ofPixel(part.first + p));
+    image.pixels[placeOf(part.pixelOrder[p], image)] = static_cast<float>(counts.ofPixel(part.first + p));
 }
 
 double rootMeanSquare(const FloatImage& picture, const FloatImage& reference) {
@@ -124,11 +126,16 @@ double rootMeanSquare(const FloatImage& picture, const FloatImage& reference) {
   return std::sqrt(sum / (3.0 * static_cast<double>(pixels)));
 }
 
-std::map<std::string, FloatImage> splitAovs(int width, int height, const std::vector<float>& planes) {
-  return {{"depth", gather(width, height, planes, AOV_DEPTH, 1)},
-          {"primitive", gather(width, height, planes, AOV_PRIMITIVE, 1)},
-          {"normal", gather(width, height, planes, AOV_NORMAL, 3)},
-          {"albedo", gather(width, height, planes, AOV_ALBEDO, 3)}};
+std::map<std::string, FloatImage> splitAovs(const Settings& settings,
+                                            const std::vector<std::uint32_t>& pixelOrder,
+                                            const std::vector<float>& planes) {
+  const auto image = [&](int first, int channels) {
+    return gather(blackImage(settings, channels), pixelOrder, planes, first);
+  };
+  return {{"depth", image(AOV_DEPTH, 1)},
+          {"primitive", image(AOV_PRIMITIVE, 1)},
+          {"normal", image(AOV_NORMAL, 3)},
+          {"albedo", image(AOV_ALBEDO, 3)}};
 }
 
 }  // namespace whittle

@@ -21,6 +21,11 @@ struct FilmPart {
   std::vector<float> planes;              ///< filmPlanes planes of its pixels (kernels/shared/layout.h)
 };
 
+// Images are black images of what the film holds: the picture, or a region in its frame.
+
+/// Where a pixel (y << 16 | x of the picture) lies in such an image.
+std::size_t placeOf(std::uint32_t pixel, const FloatImage& image);
+
 /// Puts the mean of each pixel's samples into `image`, RGB; 0 where a pixel has none.
 void resolveFilm(const FilmPart& part, const SampleCounts& counts, FloatImage& image);
 
@@ -52,7 +57,9 @@ void showSamples(const FilmPart& part, const SampleCounts& counts, FloatImage& i
 /// prints it.
 double rootMeanSquare(const FloatImage& picture, const FloatImage& reference);
 
-/// AOV_PLANES planes to named images.
-std::map<std::string, FloatImage> splitAovs(int width, int height, const std::vector<float>& planes);
+/// AOV_PLANES planes to named images of the settings' region.
+std::map<std::string, FloatImage> splitAovs(const Settings& settings,
+                                            const std::vector<std::uint32_t>& pixelOrder,
+                                            const std::vector<float>& planes);
 
 }  // namespace whittle

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/region.h"
+
 namespace whittle {
 
-/// y << 16 | x for each pixel, once each. Sides up to 65535. Tiles of 4×2 pixels along a Morton curve (Morton
-/// 1966) that goes down first.
-std::vector<std::uint32_t> makePixelOrder(std::uint32_t width, std::uint32_t height);
+/// y << 16 | x for each pixel of the region, once each; x and y are the picture's, up to 65535. Tiles of 4×2
+/// pixels from the region's corner along a Morton curve (Morton 1966) that goes down first.
+std::vector<std::uint32_t> makePixelOrder(const Region& region);
 
 }  // namespace whittle

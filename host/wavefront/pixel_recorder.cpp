@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "wavefront/film.h"
+
 namespace whittle {
 namespace {
 
@@ -14,16 +16,15 @@ float luminanceOf(const glm::dvec3& c) {
 }  // namespace
 
 PixelRecorder::PixelRecorder(Compute& compute, const RayQueues& queues, const SceneFeatures& features,
-                             int width, int height)
+                             const Settings& settings)
     : compute_(compute),
       queues_(queues),
       reader_(compute, queues),
       hasImpulses_(features.has(Feature::IMPULSES)),
       hasStraight_(features.has(Feature::STRAIGHT)),
       hasCost_(features.has(Feature::COST)),
-      width_(width),
-      height_(height),
-      pixels_(static_cast<std::size_t>(width) * height) {}
+      settings_(settings),
+      pixels_(tracedRegion(settings).pixels()) {}
 
 /// Without impulses entry i is that of slot i, and nobody writes it.
 std::vector<std::uint32_t> PixelRecorder::slots(const ObservedSegment& s) const {
@@ -42,17 +43,20 @@ std::vector<std::uint32_t> PixelRecorder::bouncesOf(const ObservedSegment& s) co
   return steps;
 }
 
-void PixelRecorder::readOrder(const ObservedSegment& s) {
-  if (orderFrom_ == s.batch.firstPixel && order_.size() == s.batch.pixels) return;
-  orderFrom_ = s.batch.firstPixel;
-  order_.resize(s.batch.pixels);
-  compute_.read(s.pixelOrder, orderFrom_ * sizeof(std::uint32_t), order_.size() * sizeof(std::uint32_t),
-                order_.data());
+/// Batches go through the film's pixels in their order.
+void PixelRecorder::readPlaces(const ObservedSegment& s) {
+  const std::uint32_t end = s.batch.firstPixel + s.batch.pixels;
+  if (end <= placed_) return;
+  std::vector<std::uint32_t> places(s.batch.pixels);
+  compute_.read(s.pixelOrder, s.batch.firstPixel * sizeof(std::uint32_t),
+                places.size() * sizeof(std::uint32_t), places.data());
+  for (std::uint32_t i = 0; i < s.batch.pixels; ++i) pixels_[s.batch.firstPixel + i].place = places[i];
+  placed_ = end;
 }
 
 void PixelRecorder::finished(const ObservedSegment& s) {
   if (s.batch.firstSample > 0) return;
-  readOrder(s);
+  readPlaces(s);
   const std::uint32_t count = s.segment.count();
   const auto ofSlots = slots(s), bounces = bouncesOf(s);
   const auto throughputs = reader_.throughputs(s), radiance = reader_.vectors(s.radiance, 0, 0, count);
@@ -63,8 +67,7 @@ void PixelRecorder::finished(const ObservedSegment& s) {
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     if (ofSlots[i] % s.batch.samples != 0) continue;
-    const std::uint32_t at = order_[ofSlots[i] / s.batch.samples];
-    Pixel& pixel = pixels_[static_cast<std::size_t>(at >> 16) * width_ + (at & 0xffffU)];
+    Pixel& pixel = pixels_[s.batch.firstPixel + ofSlots[i] / s.batch.samples];
     pixel.nodes += nodes[i], pixel.tests += tests[i];
     const float light = luminanceOf(throughputs[i] * radiance[i]);
     if (!std::isfinite(light)) continue;  // the film leaves such a sample out
@@ -74,18 +77,18 @@ void PixelRecorder::finished(const ObservedSegment& s) {
 }
 
 FloatImage PixelRecorder::bounces() const {
-  FloatImage image{width_, height_, 1, {}};
-  image.pixels.reserve(pixels_.size());
-  for (const Pixel& p : pixels_) image.pixels.push_back(p.light > 0.0F ? p.lightTimesBounce / p.light : 0.0F);
+  FloatImage image = blackImage(settings_, 1);
+  for (const Pixel& p : pixels_)
+    image.pixels[placeOf(p.place, image)] = p.light > 0.0F ? p.lightTimesBounce / p.light : 0.0F;
   return image;
 }
 
 FloatImage PixelRecorder::cost() const {
-  FloatImage image{width_, height_, 2, {}};
-  image.pixels.reserve(2 * pixels_.size());
+  FloatImage image = blackImage(settings_, 2);
   for (const Pixel& p : pixels_) {
-    image.pixels.push_back(static_cast<float>(p.nodes));
-    image.pixels.push_back(static_cast<float>(p.tests));
+    const std::size_t at = 2 * placeOf(p.place, image);
+    image.pixels[at] = static_cast<float>(p.nodes);
+    image.pixels[at + 1] = static_cast<float>(p.tests);
   }
   return image;
 }

@@ -14,36 +14,36 @@ namespace whittle {
 class PixelRecorder : public WavefrontObserver {
  public:
   /// `features`: those of the render.
-  PixelRecorder(Compute& compute, const RayQueues& queues, const SceneFeatures& features, int width,
-                int height);
+  PixelRecorder(Compute& compute, const RayQueues& queues, const SceneFeatures& features,
+                const Settings& settings);
 
   void finished(const ObservedSegment& s) override;
 
-  /// [height][width][1] At which bounce the sample's light came, the mean weighted with its luminance: 1
+  /// [1] At which bounce the sample's light came, the mean weighted with its luminance: 1
   /// where it comes from what the eye sees, 2 behind one mirror; what goes straight on is no bounce. 0: none
   /// came.
   FloatImage bounces() const;
-  /// [height][width][2] Nodes opened and triangles tested by the searches for the hits of the sample's rays;
+  /// [2] Nodes opened and triangles tested by the searches for the hits of the sample's rays;
   /// of rays that go as a packet those of the packet. Needs Feature::COST.
   FloatImage cost() const;
 
  private:
   struct Pixel {
+    std::uint32_t place = 0;  ///< y << 16 | x of the picture
     float light = 0.0F, lightTimesBounce = 0.0F;
     std::uint32_t nodes = 0, tests = 0;
   };
   std::vector<std::uint32_t> slots(const ObservedSegment& s) const;
   std::vector<std::uint32_t> bouncesOf(const ObservedSegment& s) const;
-  void readOrder(const ObservedSegment& s);
+  void readPlaces(const ObservedSegment& s);
 
   Compute& compute_;
   const RayQueues& queues_;
   QueueReader reader_;
   bool hasImpulses_, hasStraight_, hasCost_;
-  int width_, height_;
-  std::vector<Pixel> pixels_;
-  std::vector<std::uint32_t> order_;  ///< of the batch under way
-  std::uint32_t orderFrom_ = ~0U;     ///< its first pixel
+  const Settings& settings_;
+  std::vector<Pixel> pixels_;  ///< in the film's order
+  std::uint32_t placed_ = 0;   ///< of them have their place
 };
 
 }  // namespace whittle

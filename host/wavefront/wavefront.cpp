@@ -148,7 +148,7 @@ void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce
                             .bounce = bounce,
                             .lastBounce = setup_.bounces,
                             .width = setup_.camera.width,
-                            .pixels = setup_.camera.width * setup_.camera.height,
+                            .pixels = setup_.pixels,
                             .pixelOrder = *pixelOrder_,
                             .rays = queue,
                             .hits = queues_.hits,
@@ -257,11 +257,10 @@ void Wavefront::accumulate(const Buffer& queue, Segment segment) {
 }
 
 void Wavefront::film(const Buffer& blocks) {
-  const std::uint32_t pixels = setup_.camera.width * setup_.camera.height;
   stages_.run(stages::Film{.batch = batch_,
                            .capacity = queues_.capacity(),
-                           .pixels = pixels,
-                           .planes = static_cast<std::uint32_t>(film_.bytes / sizeof(float) / pixels),
+                           .pixels = setup_.pixels,
+                           .planes = static_cast<std::uint32_t>(film_.bytes / sizeof(float) / setup_.pixels),
                            .blocks = blocks,
                            .sampleRadiance = queues_.sampleRadiance,
                            .sums = film_,

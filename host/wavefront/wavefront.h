@@ -33,10 +33,11 @@ struct WavefrontSetup {
   std::uint32_t bounces;
   std::uint32_t rounds;  ///< of the loop, see mostHits
   std::uint32_t compactChunk;
+  std::uint32_t pixels;  ///< of the film
 };
 
 /// Samples [firstSample, firstSample + samples) of `pixels` pixels. Without `blocks` pixel i is i of the
-/// picture's order, and `order` is that; with them they are whole film blocks (layout.h), `order` their
+/// film's order, and `order` is that; with them they are whole film blocks (layout.h), `order` their
 /// pixels only.
 struct TracePass {
   const Buffer& order;
@@ -53,7 +54,7 @@ struct KeepGoing {
 
 class Wavefront {
  public:
-  /// `film`, `aovs`: of the whole picture. `aovs` may be empty.
+  /// `film`, `aovs`: of all pixels of the setup, in the film's order. `aovs` may be empty.
   Wavefront(Compute& compute, StageRunner& stages, RayQueues& queues, const WavefrontSetup& setup,
             const Buffer& film, const Buffer& aovs);
 

@@ -40,9 +40,9 @@ class ExplanationPanel : public WindowTest {};
 TEST_F(ExplanationPanel, ComparesWithTheReferenceWhenItIsAskedTo) {
   expectPlayed(
       "wait refined\nclick 88 60\nwait 2\nexpect view.explainedRays > 1\nexpect view.isCompared == false\n"
-      "set reference on\nwait 2\nexpect view.isCompared == true\nexpect view.parts == false\n"
-      "screenshot compared.png\nset reference off\nwait 1\nexpect view.isCompared == false\n"
-      "set reference on\nwait 0.2\nkey Escape\nwait 2\nexpect view.explainedRays == 0\n"
+      "set with-reference on\nwait 2\nexpect view.isCompared == true\nexpect view.parts == false\n"
+      "screenshot compared.png\nset with-reference off\nwait 1\nexpect view.isCompared == false\n"
+      "set with-reference on\nwait 0.2\nkey Escape\nwait 2\nexpect view.explainedRays == 0\n"
       "click 20 20\nwait 2\nexpect view.isCompared == true\nset bounces 2\nexpect view.isCompared == false\n"
       "wait refined\n");
   EXPECT_NE(play("set reference maybe\n").err.find("'maybe' is not one of on|off"), std::string::npos);

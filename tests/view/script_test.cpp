@@ -66,10 +66,11 @@ std::string failure(const std::string& text) {
 TEST(Script, DoesLineByLine) {
   const Recorder stage = played(
       "# a comment\n\nkey r\nset bounces 3\nwheel 10 20 -2\nresize 640 480\nminimise\nrestore\ndrop a.glb # "
-      "behind\n"
+      "behind\ncompare right.exr\n"
       "screenshot a.png\nprint stats.rays.shadow\nquit\n");
   EXPECT_EQ(stage.log,
-            "key r; set bounces 3; wheel -2; size 640x480; minimise; restore; drop a.glb; shot a.png; "
+            "key r; set bounces 3; wheel -2; size 640x480; minimise; restore; drop a.glb; set reference "
+            "right.exr; shot a.png; "
             "stats.rays.shadow = 12; quit; ");
 }
 

@@ -172,6 +172,10 @@ void OiioCodec::writeExr(const fs::path& path, const FloatImage& image, const Im
                          const std::vector<std::string>& channelNames) const {
   checkPixelCount(path, image.width, image.height, image.channels, image.pixels.size());
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
+  if (image.frame.width > 0) {
+    spec.x = image.frame.x, spec.y = image.frame.y;
+    spec.full_width = image.frame.width, spec.full_height = image.frame.height;
+  }
   if (static_cast<int>(channelNames.size()) == image.channels) spec.channelnames = channelNames;
   spec.attribute("compression", "zip");
   spec.attribute("DateTime", "");  // the same picture is the same bytes, whenever it was made

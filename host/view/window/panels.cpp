@@ -110,6 +110,10 @@ constexpr const char* kKeys[][2] = {
     {"F", "frame all"},
     {"1  3  7", "from the front, from the right, from above"},
     {"5", "orthographic, and back"},
+    {"K", "keep the picture as the reference"},
+    {"V, B, M", "the reference beside a line, in the picture's place, the difference"},
+    {"Space", "the reference while it is held"},
+    {"Ctrl+B, then drag", "render a region alone; Ctrl+B or Esc: all"},
     {"Ctrl+C, Ctrl+V", "camera as command-line options"},
     {"X", "lights and materials; drag a light's handle"},
     {"Ctrl+Z", "undo the last edit of them"},
@@ -280,7 +284,8 @@ void helpWindow(PanelState& state) {
       }
       ImGui::EndTable();
     }
-    ImGui::TextDisabled("Drop a .glb, .gltf, .hdr or .exr on the window to open it. Each setting has a tip.");
+    ImGui::TextDisabled(
+        "Drop a .glb, .gltf, .hdr or .exr on the window to open it, with Shift to compare with it.");
   }
   ImGui::End();
 }

@@ -23,6 +23,9 @@ struct PanelState {
 /// Shown while the mouse is on the item before; nothing for an empty text.
 void tip(const std::string& text);
 
+/// A name on the left, its value on the right.
+void row(const char* label, const std::string& value);
+
 /// Into the current ImGui window.
 void filePanel(ViewModel& model, PanelState& state);
 void settingsPanel(ViewModel& model, PanelState& state);
@@ -30,6 +33,7 @@ void settingsPanel(ViewModel& model, PanelState& state);
 void controlRow(ViewModel& model, PanelState& state, const Control& c);
 void editPanel(ViewModel& model, PanelState& state);
 void statisticsPanel(const ViewModel& model);
+void comparePanel(const ViewModel& model);
 void cameraPanel(ViewModel& model);
 void messageLine(const ViewModel& model);
 /// A pixel's rays as a foldable list; returns the ray that the mouse is on, −1: none.

@@ -11,7 +11,6 @@
 #include "view/window/style.h"
 
 namespace whittle::view {
-namespace {
 
 void row(const char* label, const std::string& value) {
   ImGui::TextUnformatted(label);
@@ -19,6 +18,8 @@ void row(const char* label, const std::string& value) {
   ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowContentRegionMax().x - width));
   ImGui::TextUnformatted(value.c_str());
 }
+
+namespace {
 
 /// Time of each stage as a bar of the longest.
 void stageBars(const Stats& stats) {

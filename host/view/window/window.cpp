@@ -77,12 +77,12 @@ Window::Window(ViewModel& model, const WindowOptions& options) : model_(model), 
                         [](GLFWwindow* w, double, double) { windowOf(w).framesToDraw_ = kFramesAfterEvent; });
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 130");
-  glGenTextures(1, &texture_);
+  for (Texture* t : {&texture_, &beside_}) glGenTextures(1, &t->name);
 }
 
 Window::~Window() {
   if (!window_) return;
-  glDeleteTextures(1, &texture_);
+  for (const Texture& t : {texture_, beside_}) glDeleteTextures(1, &t.name);
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
@@ -104,7 +104,12 @@ void Window::resize(int width, int height) {
 void Window::minimise() { glfwIconifyWindow(window_); }
 void Window::restore() { glfwRestoreWindow(window_); }
 void Window::drop(const std::string& file) {
-  model_.open(file);
+  const bool isShift = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
+                       glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
+  if (isShift)
+    model_.set("reference", file);
+  else
+    model_.open(file);
   framesToDraw_ = kFramesAfterEvent;
 }
 
@@ -167,9 +172,12 @@ void Window::drawPanels(float width, float height) {
   const bool hasRoom = width > (kSettingsWidth + kStatisticsWidth + 120) * unit;
   const bool shown = panels_.showsPanels && hasRoom && height > 4 * line;
   const float left = shown ? kSettingsWidth * unit : 0, right = shown ? kStatisticsWidth * unit : 0;
-  picture_ = pictureRect(left, 0, std::max(1.0F, width - left - right), std::max(1.0F, height - line));
+  const float middle = std::max(1.0F, width - left - right), legend = legendHeight();
+  picture_ = pictureRect(left, 0, middle, std::max(1.0F, height - line - legend));
   drawPicture();
   drawScale();
+  drawLegend(left, height - line - legend, middle);
+  drawRegion();
   drawRays(hoveredRay_);
   drawHandles();
   constexpr auto kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
@@ -192,7 +200,7 @@ void Window::drawPanels(float width, float height) {
       if (model_.explained())
         hoveredRay_ = explanationPanel(model_);
       else
-        statisticsPanel(model_);
+        comparePanel(model_), statisticsPanel(model_);
     });
   }
   if (height > line)

@@ -61,9 +61,37 @@ class Window : public Stage {
   void drawHandles();
   /// A handle that the mouse has; false: it has none.
   bool dragHandle(double right, double down);
-  void upload();
+  /// A picture on the GPU.
+  struct Texture {
+    unsigned name = 0;
+    int width = 0, height = 0;
+    std::uint64_t serial = 0;  ///< of the picture in it; 0: none yet
+    bool isCoarse = false;
+  };
+  static void upload(const Picture& picture, Texture& to);
+  /// From one share of its width to another, at its place in the window.
+  void draw(const Texture& texture, float from, float to);
   void writeShot();
   void moveCamera();
+  // A region of the picture: window_region.cpp.
+  int widthOfModel() const;
+  int heightOfModel() const;
+  void switchRegion();
+  bool leaveRegion();  ///< false: there is none
+  bool marksRegion();  ///< the mouse is taken
+  void drawRegion();
+  // A reference: window_compare.cpp.
+  void switchCompare(CompareMode mode);  ///< on, or off where it is on
+  bool compareShortcut(int key);         ///< false: it is none
+  /// What is drawn in the place of the picture or of a part of it; null: nothing.
+  const Picture* pictureBeside() const;
+  bool isSplit() const;
+  float splitPlace() const;
+  bool slidesSplit();  ///< the mouse is taken
+  void drawSplit();
+  void drawNames();
+  float legendHeight() const;  ///< 0: there is none
+  void drawLegend(float left, float top, float width);
   void shortcuts(int key, bool ctrl);
   void pressed(int key, int mods);
   void restyle();
@@ -81,10 +109,15 @@ class Window : public Stage {
   const WindowOptions& options_;
   GLFWwindow* window_ = nullptr;
   PanelState panels_;
-  unsigned texture_ = 0;
-  int textureWidth_ = 0, textureHeight_ = 0;
-  std::uint64_t uploaded_ = 0;  ///< serial of the picture in the texture
-  bool isLinear_ = false;
+  Texture texture_;
+  Texture beside_;  ///< the reference or the difference
+  /// A region that is being marked; places in [0, 1]² of the picture.
+  struct Marker {
+    bool isOn = false, isDragged = false;
+    ImVec2 from{}, to{};
+  };
+  Marker marker_;
+  bool isSliding_ = false;  ///< the line between picture and reference
   Rect picture_;
   float scale_ = 1;  ///< of the monitor
   int framesToDraw_ = 3;

@@ -29,6 +29,7 @@ std::pair<int, int> keyOf(std::string name) {
   if (name == "Escape" || name == "Esc") return {GLFW_KEY_ESCAPE, mods};
   if (name == "Home") return {GLFW_KEY_HOME, mods};
   if (name == "Tab") return {GLFW_KEY_TAB, mods};
+  if (name == "Space") return {GLFW_KEY_SPACE, mods};
   if (name == "F12") return {GLFW_KEY_F12, mods};
   throw std::invalid_argument(fmt::format("'{}' is no key that does anything", name));
 }
@@ -59,7 +60,8 @@ void Window::moveCamera() {
   const ImGuiIO& io = ImGui::GetIO();
   bool moves = false;
   model_.edits().setDragging(ImGui::IsMouseDown(0));
-  if (!io.WantCaptureMouse && picture_.height > 0) {
+  const bool isTaken = marksRegion() || slidesSplit();
+  if (!isTaken && !io.WantCaptureMouse && picture_.height > 0) {
     const double dx = static_cast<double>(io.MouseDelta.x / picture_.height),
                  dy = static_cast<double>(io.MouseDelta.y / picture_.height);
     const ImVec2 at = inPicture(io.MousePos);
@@ -108,11 +110,13 @@ void Window::pressed(int key, int mods) {
   if (!ctrl && std::string("WASDQE").find(static_cast<char>(key < 128 ? key : 0)) != std::string::npos &&
       key < 128)
     heldKeys_.insert(key);
+  if (key == GLFW_KEY_SPACE) heldKeys_.insert(key);
   shortcuts(key, ctrl);
 }
 
 void Window::shortcuts(int key, bool ctrl) {
   if (ctrl) {
+    if (key == 'B') switchRegion();
     if (key == 'Q') quit();
     if (key == 'R') model_.reload();
     if (key == 'Z') model_.edits().undo();
@@ -124,6 +128,7 @@ void Window::shortcuts(int key, bool ctrl) {
     }
     return;
   }
+  if (compareShortcut(key)) return;
   switch (key) {
     case 'R':
     case GLFW_KEY_HOME:
@@ -163,6 +168,8 @@ void Window::shortcuts(int key, bool ctrl) {
     case GLFW_KEY_ESCAPE:
       if (panels_.showsHelp)
         panels_.showsHelp = false;
+      else if (leaveRegion())
+        break;
       else if (model_.explained())
         model_.closeExplanation();
       else

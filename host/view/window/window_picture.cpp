@@ -12,19 +12,15 @@
 
 namespace whittle::view {
 
-void Window::upload() {
-  const Picture& p = model_.picture();
-  if (p.serial == uploaded_ || p.serial == 0) return;
-  glBindTexture(GL_TEXTURE_2D, texture_);
+void Window::upload(const Picture& p, Texture& to) {
+  if (p.serial == to.serial || p.serial == 0) return;
+  glBindTexture(GL_TEXTURE_2D, to.name);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  if (p.width != textureWidth_ || p.height != textureHeight_)
+  if (p.width != to.width || p.height != to.height)
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, p.width, p.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, p.codes.data());
   else
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, p.width, p.height, GL_RGBA, GL_UNSIGNED_BYTE, p.codes.data());
-  textureWidth_ = p.width;
-  textureHeight_ = p.height;
-  uploaded_ = p.serial;
-  isLinear_ = p.coarse;
+  to = {to.name, p.width, p.height, p.serial, p.coarse};
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
@@ -48,26 +44,37 @@ ImVec2 Window::inWindow(double x, double y) const {
           picture_.y + static_cast<float>(y) * picture_.height};
 }
 
-void Window::drawPicture() {
-  upload();
-  ImDrawList* const draw = ImGui::GetBackgroundDrawList();
-  const ImU32 ground = panels_.isLight ? IM_COL32(214, 214, 218, 255) : IM_COL32(16, 17, 19, 255);
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  draw->AddRectFilled({0, 0}, size, ground);
-  if (uploaded_ == 0) return;
-  glBindTexture(GL_TEXTURE_2D, texture_);
-  const float scale = picture_.width / static_cast<float>(textureWidth_);
-  const int filter = isLinear_ || scale != std::floor(scale) ? GL_LINEAR : GL_NEAREST;
+void Window::draw(const Texture& texture, float from, float to) {
+  glBindTexture(GL_TEXTURE_2D, texture.name);
+  const float scale = picture_.width / static_cast<float>(texture.width);
+  const int filter = texture.isCoarse || scale != std::floor(scale) ? GL_LINEAR : GL_NEAREST;
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  draw->AddImage(std::bit_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_)), {picture_.x, picture_.y},
-                 {picture_.x + picture_.width, picture_.y + picture_.height});
+  ImGui::GetBackgroundDrawList()->AddImage(
+      std::bit_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name)),
+      {picture_.x + from * picture_.width, picture_.y},
+      {picture_.x + to * picture_.width, picture_.y + picture_.height}, {from, 0}, {to, 1});
+}
+
+void Window::drawPicture() {
+  upload(model_.picture(), texture_);
+  const ImU32 ground = panels_.isLight ? IM_COL32(214, 214, 218, 255) : IM_COL32(16, 17, 19, 255);
+  ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, ImGui::GetIO().DisplaySize, ground);
+  if (texture_.serial == 0) return;
+  const Picture* const beside = pictureBeside();
+  if (!beside) return draw(texture_, 0, 1);
+  upload(*beside, beside_);
+  const float from = isSplit() ? splitPlace() : 0;
+  draw(texture_, 0, from);
+  draw(beside_, from, 1);
+  if (isSplit()) drawSplit();
+  drawNames();
 }
 
 /// What the colours mean, under the picture, or at its lower left where there is no room.
 void Window::drawScale() {
   const std::optional<ColorScale>& scale = model_.picture().scale;
-  if (!scale || uploaded_ == 0) return;
+  if (!scale || texture_.serial == 0) return;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const float line = ImGui::GetTextLineHeight(), margin = line / 2;
   const float width = std::min(line * 18, picture_.width - 4 * margin);
@@ -77,12 +84,13 @@ void Window::drawScale() {
   const ImVec2 at{picture_.x + margin, hasRoom ? bottom + 2 * margin : bottom - height};
   draw.AddRectFilled({at.x - margin, at.y - margin}, {at.x + width + margin, at.y + 2.5F * line + margin},
                      IM_COL32(0, 0, 0, 190), 4);
-  constexpr int kSteps = 64;
-  for (int i = 0; i < kSteps; ++i) {
-    const Code code = rampAt((i + 0.5) / kSteps);
-    const float step = width / kSteps, left = at.x + step * static_cast<float>(i);
+  const auto& colors = model_.compared().colors;
+  const float step = width / static_cast<float>(colors.size());
+  float left = at.x;
+  for (const Code& code : colors) {
     draw.AddRectFilled({left, at.y + line * 1.1F}, {left + step + 0.5F, at.y + line * 1.5F},
                        IM_COL32(code[0], code[1], code[2], 255));
+    left += step;
   }
   draw.AddText(at, IM_COL32_WHITE, scale->quantity.c_str());
   for (const double share : {0.0, 0.5, 1.0}) {

@@ -49,7 +49,7 @@ __kernel void film(
     const Batch batch, const uint capacity, const uint pixels, const uint planes,
     __global const uint* blocks,  // of the film, one for each FILM_BLOCK pixels of the pass; null: pixel by pixel
     __global const float* sampleRadiance,
-    __global float* sums,  // [planes][pixels of the picture], in the pixel order: no scattered writes
+    __global float* sums,  // [planes][pixels of the film], in the pixel order: no scattered writes
     __global uint* counters) {
   const uint k = (uint)get_global_id(0) * LANES;
   if (k >= batch.pixels) return;

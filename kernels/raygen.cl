@@ -96,7 +96,7 @@ INLINE Real3 lensPoints(const DeviceCamera* camera, const Batch* batch, uint slo
 
 __kernel void raygen(
     const DeviceCamera camera, const Batch batch, const uint count, const uint capacity,
-    __global const uint* pixelOrder,  // [pixels of the picture] y << 16 | x along a space-filling order
+    __global const uint* pixelOrder,  // [pixels of the film] y << 16 | x of the picture, along a space-filling order
     __global float* rays) {           // [RAY_PLANES][capacity]; EYE_… without IMPULSES
   const uint slot = (uint)get_global_id(0) * LANES;
   if (slot >= count) return;

@@ -12,7 +12,6 @@
 namespace whittle::test {
 namespace {
 
-using reference::kPi;
 
 /// Its normal is tilted off every axis.
 reference::Surfel whiteMetal(double roughness) {
@@ -37,9 +36,9 @@ std::vector<double> lobeOfCells(const reference::Surfel& s, const Vec3& w_o, int
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b) {
       const double cosine = (a + 0.5) / n;
-      const Vec3 w_i = direction(s, cosine, 2 * kPi * (b + 0.5) / n);
+      const Vec3 w_i = direction(s, cosine, 2 * reference::kPi * (b + 0.5) / n);
       sums[static_cast<std::size_t>(a / steps * cells + b / steps)] +=
-          reference::spreadingBsdf(s, w_i, w_o).x * cosine * 2 * kPi / n / n;
+          reference::spreadingBsdf(s, w_i, w_o).x * cosine * 2 * reference::kPi / n / n;
     }
   return sums;
 }
@@ -60,10 +59,10 @@ TEST(Gloss, ImpulsesIntegrateTheLobe) {
         for (const auto& impulse : reference::impulsesOf(s, w_o, random(i)).all()) {
           const double c = glm::dot(impulse.w_i, s.n);
           double angle = std::atan2(glm::dot(impulse.w_i, up), glm::dot(impulse.w_i, right));
-          if (angle < 0) angle += 2 * kPi;
+          if (angle < 0) angle += 2 * reference::kPi;
           const auto cell =
               static_cast<std::size_t>(std::min(kCells - 1, static_cast<int>(c * kCells)) * kCells +
-                                       std::min(kCells - 1, static_cast<int>(angle / (2 * kPi) * kCells)));
+                                       std::min(kCells - 1, static_cast<int>(angle / (2 * reference::kPi) * kCells)));
           sums[cell] += impulse.magnitude.x, squares[cell] += impulse.magnitude.x * impulse.magnitude.x;
         }
       }

@@ -60,10 +60,11 @@ class FailingDevice {
 class LostDevice : public testing::TestWithParam<FailingDevice::When> {};
 
 TEST_P(LostDevice, IsOpenedAgainForTheNextRequest) {
-  const auto scene = std::make_shared<const Scene>(ownScene("cornell_box"));
+  const auto scene = std::make_shared<Scene>(ownScene("cornell_box"));
   Settings settings = onTestDevice(wholeSettings(3));
   settings.raysPerPixel = 4;
-  const Request request{scene, scene->cameras[0], settings, false};
+  const Request request{scene, std::make_shared<const Appearance>(appearanceOf(*scene)), scene->cameras[0],
+                        settings, false};
   const FloatImage expected = render(*scene, settings, testHooks()).radiance;
   FailingDevice device;
   const std::uint64_t first = device.live().ask(request);

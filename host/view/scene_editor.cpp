@@ -120,7 +120,7 @@ Values valuesOf(Kind kind, const std::string& text, std::size_t count) {
     word.erase(std::remove_if(word.begin(), word.end(), isBlank), word.end());
     double v = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), v);
-    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(v) || std::abs(v) > 3e38)
+    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(v))
       throw std::invalid_argument(fmt::format("'{}' is no number", word));
     values.push_back(v);
   }
@@ -135,12 +135,15 @@ std::string flawOf(const EditedLight& now, const EditedLight&, const Light& ofFi
   // Off, its intensity is still one to come back to.
   const std::string flaw = intensityFlaw(glm::vec3(now.color * now.intensity));
   if (!flaw.empty()) return flaw;
+  if (!(glm::length(glm::dvec3(now.position)) < 1e30)) return "a transform that cannot be used";
   return typeOf(ofFile.kind).hasCone && !coneFits(now.innerConeAngle, now.outerConeAngle) ? kConeFlaw : "";
 }
 
 /// What the file had wrong before is left to it.
 std::string flawOf(const Material& now, const Material& before, const Material&) {
   if (now.ior < 0.0F) return kIorFlaw;
+  const bool isFinite = std::isfinite(now.ior + now.emission.x + now.emission.y + now.emission.z);
+  if (!isFinite) return kFactorFlaw;
   return !isInRange(now) && isInRange(before) ? kFactorFlaw : "";
 }
 

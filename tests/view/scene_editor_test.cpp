@@ -108,7 +108,10 @@ TEST_F(SceneEditorTest, WhatMakesNoSenseIsRefusedInTheLoadersWords) {
     EXPECT_EQ(editor.set(id, text), problem) << id << ' ' << text;
   };
   expect("light.0.intensity", "-1", "light 0: its intensity is negative");
-  expect("light.0.intensity", "3.9e38", "light.0.intensity: '3.9e38' is no number");
+  expect("light.0.intensity", "3.9e38",
+         "light 0: its intensity is beyond 3.4e38, the most that a float holds");
+  expect("light.0.intensity", "1e400", "light.0.intensity: '1e400' is no number");
+  expect("light.0.position", "1e31,0,0", "light 0: a transform that cannot be used");
   expect("light.0.color", "1,2,-1", "light 0: its intensity is negative");
   expect("light.0.inner-cone", "50", "light 0: cone angles outside 0 ≤ inner ≤ outer ≤ 90°");
   expect("light.0.outer-cone", "91", "light 0: cone angles outside 0 ≤ inner ≤ outer ≤ 90°");
@@ -122,6 +125,7 @@ TEST_F(SceneEditorTest, WhatMakesNoSenseIsRefusedInTheLoadersWords) {
   expect("material.0.roughness", "1.5", "material 0: a factor is outside its range");
   expect("material.0.base-color", "0,0,2", "material 0: a factor is outside its range");
   expect("material.0.emission", "-1,0,0", "material 0: a factor is outside its range");
+  expect("material.0.emission", "1e39,0,0", "material 0: a factor is outside its range");
   expect("material.0.ior", "-1", "material 0: ior must not be negative");
   EXPECT_EQ(edits, 0);
   EXPECT_FALSE(editor.hasUndo());

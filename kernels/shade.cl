@@ -122,7 +122,7 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
   arriving = spread(light, constants, &arriving, square);
 #endif
 #if HAS(SURFACE_LIGHTS)
-  if (light->kind == LIGHT_SURFACE) arriving = emitterIllumination(scene, light->emitters, s->position, square);
+  if (light->kind == LIGHT_SURFACE) arriving = emitterIllumination(scene, constants, s, light->emitters, square);
 #endif
 #endif
   const Real cosine = dot3(s->n, arriving.w_i);

@@ -42,8 +42,10 @@ Vec2 squareOf(const World& world, const Sample& sample, std::uint32_t dimension)
                         dimension, s.seed);
 }
 
-/// By a point of a triangle that glows, chosen by its power.
-LightSample emitterFor(const World& world, const Vec3& point, Vec2 u) {
+/// By a point of a triangle that glows, chosen by its power. The distance ends where no rounding takes a
+/// shadow ray through the triangle's plane.
+LightSample emitterFor(const World& world, const Surfel& lit, Vec2 u) {
+  const Vec3& point = lit.position;
   if (world.emitters.empty()) return {Vec3(0), 0, Vec3(0)};
   const auto chosen = std::find_if(world.emitters.begin(), world.emitters.end() - 1,
                                    [&](const Emitter& e) { return u.x < static_cast<double>(e.until); });
@@ -59,21 +61,22 @@ LightSample emitterFor(const World& world, const Vec3& point, Vec2 u) {
       makeSurfel(world.scene, world.settings, world.triangles, ray, {chosen->triangle, distance, weights});
   const double facing = -glm::dot(there.facing, ray.direction);
   if (!(facing > 0)) return {ray.direction, distance, Vec3(0)};
-  return {ray.direction, distance,
+  const double end = distance + 2 * (lit.rayOffset - std::max(lit.rayOffset, there.rayOffset) / facing);
+  return {ray.direction, end,
           there.alpha * there.emission *
               (facing * static_cast<double>(chosen->inverseDensity) / square(distance))};
 }
 
 /// The light with that index, by the point of it that is this sample's at this step.
 LightSample lightFor(const World& world, const Sample& sample, const Step& step, std::size_t index,
-                     const Vec3& point) {
+                     const Surfel& lit) {
   const Light& light = world.scene.lights[index];
-  const LightSample middle = sampleLight(light, point);
+  const LightSample middle = sampleLight(light, lit.position);
   const bool isSurface = light.kind == LightKind::Surface;
   if (!isSurface && !hasSize(light, world.settings)) return middle;
   const std::uint32_t dimension =
       kLightDimension + 8 * (roundOf(step) + kRounds * static_cast<std::uint32_t>(index));
-  if (isSurface) return emitterFor(world, point, squareOf(world, sample, dimension));
+  if (isSurface) return emitterFor(world, lit, squareOf(world, sample, dimension));
   return spread(light, middle, world.settings, squareOf(world, sample, dimension));
 }
 
@@ -82,7 +85,7 @@ Vec3 directLight(const World& world, const Sample& sample, const Step& step, con
   Vec3 sum(0);
   for (std::size_t i = 0; i < world.scene.lights.size(); ++i) {
     const Light& light = world.scene.lights[i];
-    const auto [w_i, distance, biradiance] = lightFor(world, sample, step, i, surfel.position);
+    const auto [w_i, distance, biradiance] = lightFor(world, sample, step, i, surfel);
     const double cosine = glm::dot(surfel.n, w_i);
     if (!(cosine > 0 && glm::dot(surfel.facing, w_i) > 0)) continue;
     const Vec3 unshadowed = surfel.alpha * spreadingBsdf(surfel, w_i, w_o, light.kind == LightKind::Surface) *

@@ -1,7 +1,7 @@
 // Light from the triangles that glow: one of them is chosen by its power, and a point of it evenly (Shirley, Wang,
 // Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", 1996). Table: host/scene/emitters.h.
 #include "lib/surface/light.cl"
-#include "lib/surface/surfel.cl"
+#include "lib/surface/ray_offset.cl"
 
 #if HAS(SURFACE_LIGHTS)
 /// The emitter for u in [0, 1), the first whose share ends beyond it; *u: how far into its share.
@@ -19,7 +19,11 @@ INLINE uint chosenEmitter(__global const DeviceEmitter* emitters, uint count, fl
   return low;
 }
 
-INLINE Illumination emitterIllumination(const SceneView* scene, uint count, Real3 p, Square at) {
+/// The distance ends where no rounding takes a shadow ray through the emitter's plane, which lies the offsets of both ends
+/// over the cosine nearer than its point.
+INLINE Illumination emitterIllumination(const SceneView* scene, const RenderConstants* constants, const Surfel* lit,
+                                        uint count, Square at) {
+  const Real3 p = lit->position;
   Illumination result;
   result.w_i = result.biradiance = same3((float3)(0.0f));
   result.distance = (Real)(0.0f);
@@ -44,6 +48,8 @@ INLINE Illumination emitterIllumination(const SceneView* scene, uint count, Real
   const Surfel s = surfelAt(scene, LOAD(triangle), p, result.w_i, result.distance, b1, b2);
   const Real facing = -dot3(s.n_g, result.w_i);
   const Real weight = facing * LOAD(inverseDensity) / d2;
+  const Real own = rayOffsetAt(constants, lit), others = rayOffsetAt(constants, &s);
+  result.distance += 2.0f * (own - (own > others ? own : others) / facing);
   result.biradiance = choose3(reached & (facing > 0.0f), scale3(weight * s.alpha, s.emission), result.biradiance);
   return result;
 }

@@ -78,7 +78,6 @@ INLINE SampleNames sampleNames(const Batch* batch, uint width, __global const ui
   return names;
 }
 
-
 /// Where the entries' samples lie in the square whose dimensions begin at `dimension`.
 INLINE Square sampleSquares(const RenderConstants* constants, const SampleNames* names, uint dimension) {
   float u[LANES], v[LANES];
@@ -357,10 +356,9 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 
 #if HAS(LIGHTS)
 __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const Batch batch, const uint first,
-                          const uint count, const uint capacity, const uint bounce, const uint light,
-                          const uint width, __global const uint* pixelOrder, __global const float* rays,
-                          __global const float* hits, __global float* entryRadiance, __global float* shadows,
-                          __global uchar* flags) {
+                          const uint count, const uint capacity, const uint bounce, const uint light, const uint width,
+                          __global const uint* pixelOrder, __global const float* rays, __global const float* hits,
+                          __global float* entryRadiance, __global float* shadows, __global uchar* flags) {
   const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;

@@ -52,7 +52,7 @@ class QueueReader {
   }
   /// The same of three planes, the first of which is given.
   std::vector<glm::dvec3> vectors(const Buffer& buffer, std::uint32_t firstPlane, std::uint32_t first,
-                                 std::uint32_t count) const {
+                                  std::uint32_t count) const {
     std::vector<glm::dvec3> values(count);
     for (int axis = 0; axis < 3; ++axis) {
       const auto part = plane<float>(buffer, firstPlane + static_cast<std::uint32_t>(axis), first, count);

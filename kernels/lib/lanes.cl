@@ -117,7 +117,8 @@ INLINE Real3 sumError3(Real3 a, Real3 b, Real3 sum) {
   return real3(sumError(a.x, b.x, sum.x), sumError(a.y, b.y, sum.y), sumError(a.z, b.z, sum.z));
 }
 
-/// Two unit vectors across `axis` (unit) and each other (Duff et al., "Building an Orthonormal Basis, Revisited", 2017).
+/// Two unit vectors across `axis` (unit) and each other (Duff et al., "Building an Orthonormal Basis, Revisited",
+/// 2017).
 INLINE void basisAbout(Real3 axis, Real3* right, Real3* up) {
   const Real side = axis.z < 0.0f ? (Real)(-1.0f) : (Real)(1.0f);
   const Real a = -1.0f / (side + axis.z), b = axis.x * axis.y * a;

@@ -47,7 +47,8 @@ INLINE uint sobolSecond(uint i) {
 // Points of the unit square; a square has the dimensions from `dimension` on.
 
 INLINE float2 squareRandom(uint pixel, uint sample, uint dimension, uint seed) {
-  return (float2)(unitFloat(hash4(pixel, sample, dimension, seed)), unitFloat(hash4(pixel, sample, dimension + 1, seed)));
+  return (float2)(unitFloat(hash4(pixel, sample, dimension, seed)),
+                  unitFloat(hash4(pixel, sample, dimension + 1, seed)));
 }
 
 /// The side of the largest square of strata that `count` samples fill.

@@ -29,11 +29,12 @@ typedef struct {
       __global const uint *indices32, __global const float *normals, __global const float *tangents,                 \
       __global const float *uv0, __global const float *uv1, __global const float *colors,                            \
       __global const DeviceMaterial *materials, __global const DeviceTexture *textures, __global const uint *texels, \
-      __global const float *linearFromSrgb, __global const DeviceLight *lights, __global const DeviceEmitter *emitters, __global const float *backgroundMap, \
-      __global const float *bvh8Nodes, __global const float *leaves, const uint triangleCount
+      __global const float *linearFromSrgb, __global const DeviceLight *lights,                                      \
+      __global const DeviceEmitter *emitters, __global const float *backgroundMap, __global const float *bvh8Nodes,  \
+      __global const float *leaves, const uint triangleCount
 
 #define SCENE_VIEW                                                                                          \
   {                                                                                                         \
     nodes, triangles, corners, indices32, normals, tangents, uv0, uv1, colors, materials, textures, texels, \
-        linearFromSrgb, lights, emitters, backgroundMap, bvh8Nodes, leaves, triangleCount                             \
+        linearFromSrgb, lights, emitters, backgroundMap, bvh8Nodes, leaves, triangleCount                   \
   }

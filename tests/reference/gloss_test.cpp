@@ -12,7 +12,6 @@
 namespace whittle::test {
 namespace {
 
-
 /// Its normal is tilted off every axis.
 reference::Surfel whiteMetal(double roughness) {
   return whiteMetalAt(glm::normalize(Vec3(0.3, 0.8, -0.5)), roughness);
@@ -60,9 +59,9 @@ TEST(Gloss, ImpulsesIntegrateTheLobe) {
           const double c = glm::dot(impulse.w_i, s.n);
           double angle = std::atan2(glm::dot(impulse.w_i, up), glm::dot(impulse.w_i, right));
           if (angle < 0) angle += 2 * reference::kPi;
-          const auto cell =
-              static_cast<std::size_t>(std::min(kCells - 1, static_cast<int>(c * kCells)) * kCells +
-                                       std::min(kCells - 1, static_cast<int>(angle / (2 * reference::kPi) * kCells)));
+          const auto cell = static_cast<std::size_t>(
+              std::min(kCells - 1, static_cast<int>(c * kCells)) * kCells +
+              std::min(kCells - 1, static_cast<int>(angle / (2 * reference::kPi) * kCells)));
           sums[cell] += impulse.magnitude.x, squares[cell] += impulse.magnitude.x * impulse.magnitude.x;
         }
       }

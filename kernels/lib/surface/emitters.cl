@@ -19,8 +19,8 @@ INLINE uint chosenEmitter(__global const DeviceEmitter* emitters, uint count, fl
   return low;
 }
 
-/// The distance ends where no rounding takes a shadow ray through the emitter's plane, which lies the offsets of both ends
-/// over the cosine nearer than its point.
+/// The distance ends where no rounding takes a shadow ray through the emitter's plane, which lies the offsets of both
+/// ends over the cosine nearer than its point.
 INLINE Illumination emitterIllumination(const SceneView* scene, const RenderConstants* constants, const Surfel* lit,
                                         uint count, Square at) {
   const Real3 p = lit->position;

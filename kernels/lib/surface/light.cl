@@ -68,7 +68,8 @@ INLINE Real3 inCone(Real3 axis, Real less, Real turns) {
 
 /// What a light of some size sends to the entries by one of its points instead of all of it: a sphere of the same
 /// intensity about a light with a place (which is dark inside), a cone of directions about that of a directional one,
-/// both of one radiance. Evenly in solid angle (Pharr, Jakob, Humphreys 2023, 6.2.4); cones and ranges go by the middle.
+/// both of one radiance. Evenly in solid angle (Pharr, Jakob, Humphreys 2023, 6.2.4); cones and ranges go by the
+/// middle.
 INLINE Illumination spread(__global const DeviceLight* light, const RenderConstants* constants,
                            const Illumination* point, Square at) {
   Illumination result = *point;

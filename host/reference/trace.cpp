@@ -214,7 +214,9 @@ std::optional<Hit> nearestSurface(const World& world, const Ray& ray, const std:
 }
 
 Vec3 visibility(const World& world, const Surfel& surfel, const Vec3& w_i, double distance) {
-  const auto [ray, length] = shadowRay(surfel, w_i, distance);
+  const ShadowRay shadow = shadowRay(surfel, w_i, distance);
+  const Ray& ray = shadow.ray;
+  const double length = shadow.length;
   if (!(length > 0)) return Vec3(1);
 
   // Opacity in units of 2⁻¹⁶ stops: a sum of integers does not depend on the order of the surfaces.

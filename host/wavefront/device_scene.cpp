@@ -107,6 +107,7 @@ std::vector<device::DeviceEmitter> emittersToDevice(const std::vector<Emitter>& 
   std::vector<std::uint32_t> leafOf(order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) leafOf[order[i]] = i;
   std::vector<device::DeviceEmitter> out;
+  out.reserve(emitters.size());
   for (const Emitter& e : emitters) out.push_back({leafOf[e.triangle], e.until, e.inverseDensity});
   return out;
 }

@@ -88,7 +88,7 @@ class Growth {
       const glm::dvec3 along = glm::normalize(glm::dvec3(std::cos(angle), rise, std::sin(angle)));
       const glm::dvec3 across = glm::normalize(glm::cross(along, glm::dvec3(0, 1, 0))),
                        up = glm::cross(across, along);
-      const double length = spec_.height * (0.022 + 0.012 * random()), width = 0.36 * length;
+      const double length = spec_.height * (0.045 + 0.02 * random()), width = 0.4 * length;
       const glm::dvec3 foot = path[i], middle = foot + 0.5 * length * along,
                        tip = foot + length * along - 0.15 * length * up;
       for (const double side : {1.0, -1.0}) {

@@ -22,7 +22,7 @@ class Rain {
 
  private:
   static constexpr int kLongestWay = 80;
-  static constexpr double kInertia = 0.3, kCapacity = 6, kErosion = 0.25, kDeposit = 0.25, kDrying = 0.02;
+  static constexpr double kInertia = 0.3, kCapacity = 3, kErosion = 0.08, kDeposit = 0.12, kDrying = 0.02;
 
   struct Slope {
     glm::dvec2 gradient;
@@ -99,7 +99,7 @@ Terrain::Terrain(const TerrainSpec& spec) : spec_(spec) {
       // Valleys of a ridged noise between broad hills.
       const double broad = fractalNoise(0.7 * uv, {3, 3}, spec.series, 3);
       const double ridge = 1 - std::abs(2 * fractalNoise(0.7 * uv, {5, 5}, spec.series + 20, 6) - 1);
-      heights_.push_back(spec.relief * (0.6 * broad + 0.55 * ridge * ridge * broad));
+      heights_.push_back(spec.relief * (0.75 * broad + 0.45 * ridge * ridge * broad * broad));
     }
   }
   Rain(*this).fall();

@@ -129,15 +129,23 @@ TEST(SceneKitLathe, TurnsAClosedProfileIntoARing) {
 
 TEST(SceneKitSweep, GoesAroundAClosedPathWithoutATwist) {
   SweepSpec spec;
+  // A trefoil, whose frames come back turned.
   for (int i = 0; i < 200; ++i) {
-    const glm::dvec2 c = onCircle(i, 200);
-    spec.path.emplace_back(5 * c.x, 0.8 * c.x * c.y, 5 * c.y);  // not in a plane
+    const glm::dvec2 a = onCircle(i, 200), b = onCircle(2 * i, 200), c = onCircle(3 * i, 200);
+    spec.path.push_back(3.0 * glm::dvec3(a.y + 2 * b.y, a.x - 2 * b.x, -c.y));
   }
   spec.isClosed = true;
   spec.section = rectangleOutline({-1, -0.4}, {1, 0.4}, 0.2);
   const Mesh loop = makeSweep(spec);
   EXPECT_EQ(openEdges(loop), 0U);
   EXPECT_EQ(badNormals(loop), 0);
+  // Rings follow one another evenly, the first after the last as well.
+  const std::size_t stride = spec.section.points.size() + 1;
+  double longest = 0;
+  for (std::size_t i = 0; i + stride < loop.positions.size(); ++i)
+    longest =
+        std::max(longest, static_cast<double>(glm::distance(loop.positions[i], loop.positions[i + stride])));
+  EXPECT_LT(longest, 0.9);  // points of the path are up to 0.5 apart, the section reaches out by 1.1
   spec.path.clear();
   for (int i = 0; i < 200; ++i) spec.path.emplace_back(5 * onCircle(i, 200).x, 0, 5 * onCircle(i, 200).y);
   spec.section = circleOutline(1, 64);

@@ -49,6 +49,13 @@ TEST(SceneKitSubdivision, AFlatGridStaysFlatWithItsCornersAndTexture) {
   EXPECT_EQ(grid.points[11], glm::dvec3(3, 0, 2));
 }
 
+TEST(SceneKitSubdivision, ABorderIsACubicSpline) {
+  const Cage roof = makeGrid(1, 2, {{0, 0, 0}, {1, 1, 0}, {2, 0, 0}, {0, 0, 1}, {1, 1, 1}, {2, 0, 1}});
+  const Cage once = subdivided(roof);
+  EXPECT_EQ(once.points[0], glm::dvec3(0));                                      // a corner of one quad stays
+  EXPECT_NEAR(glm::distance(once.points[1], glm::dvec3(1, 0.75, 0)), 0, 1e-12);  // (1, 6, 1) / 8
+}
+
 ClothSpec fallingCloth() {
   ClothSpec spec;
   spec.center = {0, 0.12, 0};

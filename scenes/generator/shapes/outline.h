@@ -8,7 +8,7 @@
 
 namespace generator {
 
-/// A corner of a polygon and the radius that it is rounded with; 0: a corner as sharp as kSharpest allows.
+/// A corner of a polygon and the radius that it is rounded with; 0: a corner as sharp as can be.
 struct Corner {
   double x = 0, y = 0, radius = 0;
 };

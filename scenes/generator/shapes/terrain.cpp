@@ -55,10 +55,10 @@ class Rain {
 
   bool isOnLand(glm::dvec2 p) const { return p.x >= 0 && p.y >= 0 && p.x < n_ && p.y < n_; }
 
-  void run(std::uint32_t drop) {
+  void run(std::uint32_t index) {
     const std::uint32_t series = land_.spec_.series;
     glm::dvec2 p =
-        static_cast<double>(n_) * glm::dvec2(unitValue(series + 90, drop), unitValue(series + 91, drop));
+        static_cast<double>(n_) * glm::dvec2(unitValue(series + 90, index), unitValue(series + 91, index));
     glm::dvec2 way(0);
     double water = 1, earth = 0, speed = 1;
     for (int step = 0; step < kLongestWay; ++step) {
@@ -69,18 +69,18 @@ class Rain {
       way /= length;
       const glm::dvec2 next = p + way;
       if (!isOnLand(next)) return;  // what it carries leaves with it
-      const double drop_ = here.height - slopeAt(next).height;
-      const double capacity = std::max(drop_, 0.01) * speed * water * kCapacity;
-      if (drop_ < 0 || earth > capacity) {
-        const double left = drop_ < 0 ? std::min(-drop_, earth) : kDeposit * (earth - capacity);
+      const double descent = here.height - slopeAt(next).height;
+      const double capacity = std::max(descent, 0.01) * speed * water * kCapacity;
+      if (descent < 0 || earth > capacity) {
+        const double left = descent < 0 ? std::min(-descent, earth) : kDeposit * (earth - capacity);
         addEarth(p, left);
         earth -= left;
       } else {
-        const double taken = std::min(kErosion * (capacity - earth), drop_);
+        const double taken = std::min(kErosion * (capacity - earth), descent);
         addEarth(p, -taken);
         earth += taken;
       }
-      speed = std::sqrt(std::max(0.0, speed * speed + drop_));
+      speed = std::sqrt(std::max(0.0, speed * speed + descent));
       water *= 1 - kDrying;
       p = next;
     }

@@ -17,6 +17,16 @@ constexpr double kWindowZ = -330, kSill = 2;
 constexpr glm::dvec2 kWindowLow(-460, 4), kWindowHigh(520, 900);  // x and y
 constexpr double kStreet = -14000;                                // the room is on the fourth floor
 
+/// Numbers that differ between the things of the city.
+enum CitySeries : std::uint32_t {
+  kSkyCloud = 8000,
+  kLit = 8100,
+  kWindowHeight,
+  kHouseWidth = 8200,
+  kHouseAt,
+  kHouseFloors
+};
+
 Mesh quad(glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v, glm::dvec2 repeat = {1, 1}) {
   Mesh mesh;
   addQuad(mesh, corner, u, v, repeat);
@@ -66,7 +76,7 @@ std::vector<std::uint8_t> skyPicture() {
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
       const glm::dvec2 uv((x + 0.5) / kSize, (y + 0.5) / kSize);
-      const double up = 1 - uv.y, cloud = fractalNoise({uv.x, 3 * uv.y}, {5, 9}, 8000, 5);
+      const double up = 1 - uv.y, cloud = fractalNoise({uv.x, 3 * uv.y}, {5, 9}, kSkyCloud, 5);
       glm::dvec3 color =
           glm::mix(glm::dvec3(0.78, 0.40, 0.20), glm::dvec3(0.36, 0.27, 0.42), smoothStep(0.24, 0.46, up));
       color = glm::mix(color, glm::dvec3(0.07, 0.13, 0.36), smoothStep(0.38, 0.78, up));
@@ -92,11 +102,11 @@ void addHouse(Mesh& facades, std::array<Mesh, 3>& windows, glm::dvec3 foot, doub
   for (int floor = 0; floor < floors; ++floor) {
     for (int bay = 0; bay < bays; ++bay) {
       const std::uint32_t seed = id * 4096 + static_cast<std::uint32_t>(floor * 64 + bay);
-      const double chance = unitValue(8100, seed);
+      const double chance = unitValue(kLit, seed);
       if (chance > 0.58) continue;
       const std::size_t kind = chance < 0.24 ? 0 : chance < 0.32 ? 1 : 2;
       const glm::dvec3 corner = foot + glm::dvec3(margin + kBay * bay + 700, kFloor * floor + 900, 40);
-      addQuad(windows[kind], corner, {1000, 0, 0}, {0, 1200 + 500 * unitValue(8101, id), 0});
+      addQuad(windows[kind], corner, {1000, 0, 0}, {0, 1200 + 500 * unitValue(kWindowHeight, id), 0});
     }
   }
 }
@@ -122,9 +132,10 @@ void addCity(const Workshop& workshop) {
   constexpr std::uint32_t kHouses = 260;
   for (std::uint32_t i = 0; i < kHouses; ++i) {
     const double t = (i + 0.5) / kHouses, far = 150e3 + 520e3 * t * t;
-    const double width = 9e3 + 14e3 * unitValue(8200, i), x = (unitValue(8201, i) - 0.5) * 1.3 * (far + 30e3);
+    const double width = 9e3 + 14e3 * unitValue(kHouseWidth, i),
+                 x = (unitValue(kHouseAt, i) - 0.5) * 1.3 * (far + 30e3);
     const bool isTower = i % 13 == 0 && far > 220e3;
-    const int floors = 3 + static_cast<int>(4 * unitValue(8202, i)) + (isTower ? 6 : 0);
+    const int floors = 3 + static_cast<int>(4 * unitValue(kHouseFloors, i)) + (isTower ? 6 : 0);
     addHouse(facades[i % 3], windows, {x, kStreet, -far}, width, 12e3, floors, i);
   }
   // What dusk gives to walls, from near to hazy.

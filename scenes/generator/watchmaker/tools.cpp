@@ -1,6 +1,7 @@
 // Tools: tweezers and screwdrivers on the pad, a rack of screwdrivers behind, a steel tray with screws and
 // wheels.
 #include <cmath>
+#include <numbers>
 
 #include "hash.h"
 #include "shapes/gear.h"
@@ -12,6 +13,10 @@ namespace generator {
 namespace {
 
 constexpr double kPadTop = 0.3;  // above the bench
+constexpr double kTurnAround = 2 * std::numbers::pi;
+
+/// Numbers that differ between the loose screws.
+enum TraySeries : std::uint32_t { kScrewAngle = 9000, kScrewFar, kScrewTurn };
 
 Mesh spun(const std::vector<Corner>& profile, int segments, double arcStep = 0.2) {
   return makeLathe(roundCorners(profile, false, arcStep), segments);
@@ -100,7 +105,8 @@ void addTray(const Workshop& workshop) {
   const int screw = tray.addMesh("loose screw", looseScrew(), workshop.finishes.bluedSteel);
   const int gold = tray.addMesh("loose brass screw", looseScrew(), workshop.finishes.polishedBrass);
   for (std::uint32_t i = 0; i < 46; ++i) {
-    const double angle = 6.2832 * unitValue(9000, i), far = 23 * std::sqrt(unitValue(9001, i));
+    const double angle = kTurnAround * unitValue(kScrewAngle, i),
+                 far = 23 * std::sqrt(unitValue(kScrewFar, i));
     const glm::dvec3 at(far * std::cos(angle), 1.2, far * std::sin(angle));
     if (at.x < -2 && at.z < 4) continue;  // where the wheels lie
     if (i % 5 == 0) {
@@ -109,7 +115,7 @@ void addTray(const Workshop& workshop) {
       continue;
     }
     // On its side: the rim of the head and the end of the shank touch the tray.
-    const double turn = 6.2832 * unitValue(9002, i), dip = (1.45 - 0.75) / 3.2;
+    const double turn = kTurnAround * unitValue(kScrewTurn, i), dip = (1.45 - 0.75) / 3.2;
     const glm::dvec3 axis = glm::normalize(glm::dvec3(std::cos(turn), dip, std::sin(turn)));
     tray.placeMesh(i % 3 == 0 ? gold : screw, {.position = at + glm::dvec3(0, 0.78, 0), .turn = upTo(axis)});
   }

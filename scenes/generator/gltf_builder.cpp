@@ -44,7 +44,19 @@ std::vector<double> lookRotation(glm::dvec3 direction) {
   return {q.x, q.y, q.z, q.w};
 }
 
+glm::dquat rotationOf(const Placement& placement) {
+  const double half = glm::radians(placement.turnY) / 2;
+  return placement.turn * glm::dquat(std::cos(half), 0, std::sin(half), 0);
+}
+
 }  // namespace
+
+Placement within(const Placement& whole, const Placement& part) {
+  const glm::dquat turn = rotationOf(whole);
+  return {.position = whole.position + whole.scale * (turn * part.position),
+          .scale = whole.scale * part.scale,
+          .turn = glm::normalize(turn * rotationOf(part))};
+}
 
 MaterialSpec matte(const std::string& name, glm::dvec3 color) {
   MaterialSpec spec;
@@ -101,6 +113,10 @@ int GltfBuilder::addMaterial(const MaterialSpec& spec) {
   m.pbrMetallicRoughness.baseColorTexture.texCoord = spec.baseColorTexture.uvSet;
   m.normalTexture.index = spec.normalTexture.image;
   m.normalTexture.texCoord = spec.normalTexture.uvSet;
+  m.pbrMetallicRoughness.metallicRoughnessTexture.index = spec.metallicRoughnessTexture.image;
+  m.pbrMetallicRoughness.metallicRoughnessTexture.texCoord = spec.metallicRoughnessTexture.uvSet;
+  m.emissiveTexture.index = spec.emissionTexture.image;
+  m.emissiveTexture.texCoord = spec.emissionTexture.uvSet;
   const auto extend = [&](const std::string& name, Object values) {
     useExtension(name);
     m.extensions[name] = Value(std::move(values));
@@ -203,17 +219,25 @@ int GltfBuilder::addNode(tinygltf::Node node) {
 }
 
 void GltfBuilder::place(const std::string& name, int geometry, int material, const Placement& placement) {
+  placeMesh(addMesh(name, geometry, material), placement);
+}
+
+int GltfBuilder::addMesh(const std::string& name, int geometry, int material) {
   tinygltf::Mesh mesh;
   mesh.name = name;
   mesh.primitives.push_back(geometries_[static_cast<std::size_t>(geometry)].primitive);
   mesh.primitives[0].material = material;
   model_.meshes.push_back(std::move(mesh));
+  return static_cast<int>(model_.meshes.size()) - 1;
+}
+
+void GltfBuilder::placeMesh(int mesh, const Placement& placement) {
   tinygltf::Node node;
-  node.name = name;
-  node.mesh = static_cast<int>(model_.meshes.size()) - 1;
-  const double half = glm::radians(placement.turnY) / 2;
+  node.name = model_.meshes[static_cast<std::size_t>(mesh)].name;
+  node.mesh = mesh;
+  const glm::dquat turn = rotationOf(placement);
   node.translation = identityUnless(vectorOf(placement.position), {0, 0, 0});
-  node.rotation = identityUnless({0, std::sin(half), 0, std::cos(half)}, {0, 0, 0, 1});
+  node.rotation = identityUnless({turn.x, turn.y, turn.z, turn.w}, {0, 0, 0, 1});
   node.scale = identityUnless(vectorOf(glm::dvec3(placement.scale)), {1, 1, 1});
   addNode(std::move(node));
 }

@@ -36,6 +36,8 @@ struct MaterialSpec {
   std::string alphaMode = "OPAQUE";
   TextureUse baseColorTexture;
   TextureUse normalTexture;
+  TextureUse metallicRoughnessTexture;
+  TextureUse emissionTexture;
 };
 
 /// Ready-made surfaces that several scenes use.
@@ -60,8 +62,12 @@ struct LightSpec {
 struct Placement {
   glm::dvec3 position{0};
   double scale = 1;
-  double turnY = 0;  ///< degrees about +Y
+  double turnY = 0;             ///< degrees about +Y
+  glm::dquat turn{1, 0, 0, 0};  ///< after that
 };
+
+/// Where a part goes that is placed within something that is placed itself.
+Placement within(const Placement& whole, const Placement& part);
 
 class GltfBuilder {
  public:
@@ -74,9 +80,12 @@ class GltfBuilder {
   /// the way.
   int addGeometry(Mesh mesh);
   void place(const std::string& name, int geometry, int material, const Placement& placement = {});
+  /// A glTF mesh that nodes share.
+  int addMesh(const std::string& name, int geometry, int material);
+  void placeMesh(int mesh, const Placement& placement);
   /// A geometry that is used once, where it is.
-  void add(const std::string& name, Mesh mesh, int material) {
-    place(name, addGeometry(std::move(mesh)), material);
+  void add(const std::string& name, Mesh mesh, int material, const Placement& placement = {}) {
+    place(name, addGeometry(std::move(mesh)), material, placement);
   }
 
   void addLight(const LightSpec& spec);

@@ -1,6 +1,5 @@
 // make_scenes OUTDIR [--only NAME]: writes every small scene, or one, as OUTDIR/NAME.glb.
-// make_scenes --heightfield N FILE: hills of N x N squares. make_scenes --frame FILE: the whole-frame
-// benchmark. make_scenes --mixed FILE: millimetres beside 120 km.
+// make_scenes --heightfield N FILE: hills of N x N squares. make_scenes --NAME FILE: one of the large scenes.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -16,12 +15,14 @@ using generator::GltfBuilder;
 constexpr int kMaxSquares = 4096;  // 33 million triangles; the file stays below GLB's 4 GiB
 
 constexpr const char* kUsage =
-    "usage: make_scenes OUTDIR [--only NAME] [--heightfield N FILE] [--frame FILE] [--mixed FILE]\n"
+    "usage: make_scenes OUTDIR [--only NAME] [--heightfield N FILE] [--LARGE FILE]\n"
     "  OUTDIR            writes every small scene there (- : none)\n"
     "  --only NAME       only this one\n"
     "  --heightfield N FILE   hills of N x N squares, N up to 4096\n"
     "  --frame FILE      the whole-frame benchmark, 627 200 triangles and mirror balls\n"
-    "  --mixed FILE      millimetre triangles, slivers and triangles of 120 km, 202 810 in all\n";
+    "  --mixed FILE      millimetre triangles, slivers and triangles of 120 km, 202 810 in all\n"
+    "  --watchmaker FILE a watchmaker's bench at dusk, the large composition\n"
+    "  --valley FILE     eroded land with woods and meadows out of copies\n";
 
 struct NamedScene {
   const char* name;
@@ -44,6 +45,19 @@ constexpr NamedScene kScenes[] = {
     {"textured", generator::buildTextured},
     {"height_field", [](GltfBuilder& scene) { generator::buildHeightField(scene, kDefaultSquares); }},
 };
+
+/// Too large to be kept: written when asked for, as --NAME FILE.
+constexpr NamedScene kLargeScenes[] = {{"frame", generator::buildFrame},
+                                       {"mixed", generator::buildMixed},
+                                       {"watchmaker", generator::buildWatchmaker},
+                                       {"valley", generator::buildValley}};
+
+/// The large scene that `option` asks for, or nullptr.
+const NamedScene* largeScene(std::string_view option) {
+  for (const NamedScene& scene : kLargeScenes)
+    if (option.starts_with("--") && option.substr(2) == scene.name) return &scene;
+  return nullptr;
+}
 
 /// A wrong command line; the usage goes with it.
 struct UsageError : std::runtime_error {
@@ -93,11 +107,8 @@ void run(int count, char** arguments) {
       const std::string_view squares = next();
       writeHeightField(squares, next());
       wroteFile = true;
-    } else if (argument == "--frame") {
-      writeScene({"frame", generator::buildFrame}, next());
-      wroteFile = true;
-    } else if (argument == "--mixed") {
-      writeScene({"mixed", generator::buildMixed}, next());
+    } else if (const NamedScene* const large = largeScene(argument)) {
+      writeScene(*large, next());
       wroteFile = true;
     } else if (argument.starts_with("--") || !folder.empty()) {
       throw UsageError(fmt::format("{}: not understood", argument));

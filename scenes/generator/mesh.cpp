@@ -16,7 +16,8 @@ void addTriangles(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
   for (const std::uint32_t i : {a, b, c, a, c, d}) mesh.indices.push_back(i);
 }
 
-/// cos and sin of a full turn's i-th of n parts, exact at the quarters so that seams close.
+}  // namespace
+
 glm::dvec2 onCircle(int i, int n) {
   const int quarter = (4 * i) / n;
   if (4 * i == quarter * n) {
@@ -26,8 +27,6 @@ glm::dvec2 onCircle(int i, int n) {
   const double angle = 2 * pi * i / n;
   return {std::cos(angle), std::sin(angle)};
 }
-
-}  // namespace
 
 void addQuad(Mesh& mesh, glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v, glm::dvec2 repeat) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -122,6 +121,33 @@ Mesh makeCheckers(int rows, int columns, double side, int parity) {
     }
   }
   mesh.uv0.clear();
+  mesh.tangents.clear();
+  return mesh;
+}
+
+void append(Mesh& mesh, const Mesh& more) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  add(mesh.positions, more.positions);
+  add(mesh.normals, more.normals);
+  add(mesh.tangents, more.tangents);
+  add(mesh.uv0, more.uv0);
+  add(mesh.uv1, more.uv1);
+  add(mesh.colors, more.colors);
+  for (const std::uint32_t index : more.indices) mesh.indices.push_back(first + index);
+}
+
+Mesh moved(Mesh mesh, const glm::dmat4& matrix) {
+  const glm::dmat3 turn(matrix);
+  for (glm::vec3& p : mesh.positions) p = glm::vec3(matrix * glm::dvec4(p, 1));
+  for (glm::vec3& n : mesh.normals) n = glm::vec3(glm::normalize(turn * glm::dvec3(n)));
+  for (glm::vec4& t : mesh.tangents) t = glm::vec4(glm::vec3(glm::normalize(turn * glm::dvec3(t))), t.w);
+  return mesh;
+}
+
+Mesh untextured(Mesh mesh) {
+  mesh.uv0.clear();
+  mesh.uv1.clear();
   mesh.tangents.clear();
   return mesh;
 }

@@ -19,6 +19,9 @@ struct Mesh {
   std::vector<std::uint32_t> indices;
 };
 
+/// cos and sin of the i-th of n parts of a full turn, exact at the quarters so that seams close.
+glm::dvec2 onCircle(int i, int n);
+
 /// Adds the rectangle corner, corner + u, corner + u + v, corner + v; its front looks along u × v. uv0 runs
 /// from (0, repeat.y) at `corner` to (repeat.x, 0) opposite it, so that a picture stands upright where v
 /// points up; tangents go with it.
@@ -41,6 +44,15 @@ Mesh makeTorus(double radius, double tubeRadius, int segments, int tubeSegments)
 /// Rows × columns squares in the plane y = 0 about the origin with their front up, every second one: the
 /// other half belongs to a call with the other `parity`.
 Mesh makeCheckers(int rows, int columns, double side, int parity);
+
+/// Adds `more` behind what is there; both have the same arrays.
+void append(Mesh& mesh, const Mesh& more);
+
+/// Moved by a matrix that turns, moves and scales evenly.
+Mesh moved(Mesh mesh, const glm::dmat4& matrix);
+
+/// Without what textures need.
+Mesh untextured(Mesh mesh);
 
 /// The same surface with its front on the other side: the wall of a hollow inside a solid.
 Mesh insideOut(Mesh mesh);

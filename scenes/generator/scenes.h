@@ -23,5 +23,9 @@ void buildFrame(GltfBuilder& scene);
 /// Triangles of a millimetre beside triangles of 120 km and slivers a millimetre wide: what is hard
 /// on a tree.
 void buildMixed(GltfBuilder& scene);
+/// A composition of 1.5 million triangles: a watchmaker's bench at dusk.
+void buildWatchmaker(GltfBuilder& scene);
+/// Eroded land with woods and meadows, 6 million triangles of copies.
+void buildValley(GltfBuilder& scene);
 
 }  // namespace generator

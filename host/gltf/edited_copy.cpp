@@ -19,7 +19,7 @@ namespace whittle {
 namespace gltf {
 namespace {
 
-constexpr const char* kLights = "KHR_lights_punctual";
+constexpr const char* kLightsExtension = "KHR_lights_punctual";
 
 /// Keys keep their order.
 using Ordered = nlohmann::ordered_json;
@@ -96,7 +96,7 @@ class Editor {
     return objectIn(objectIn(thing, "extensions"), name);
   }
 
-  Ordered& lights() { return listIn(objectIn(objectIn(root_, "extensions"), kLights), "lights"); }
+  Ordered& lights() { return listIn(objectIn(objectIn(root_, "extensions"), kLightsExtension), "lights"); }
 
   void editLight(const Light& before, const Light& after) {
     const auto node = at(after.node);
@@ -116,7 +116,7 @@ class Editor {
       Ordered copy = lights()[at(index)];
       index = static_cast<int>(lights().size());
       lights().push_back(std::move(copy));
-      root_["nodes"][node]["extensions"][kLights]["light"] = index;
+      root_["nodes"][node]["extensions"][kLightsExtension]["light"] = index;
     }
     return lights()[at(index)];
   }
@@ -182,11 +182,11 @@ class Editor {
     Ordered child = Ordered::object();
     if (!document_.nodes[node].name.empty()) child["name"] = document_.nodes[node].name;
     child["translation"] = listOf(place);
-    child["extensions"][kLights]["light"] = document_.nodes[node].light;
+    child["extensions"][kLightsExtension]["light"] = document_.nodes[node].light;
     if (!document_.nodes[node].castsShadows()) child["extras"]["castsShadows"] = false;
     const std::size_t index = root_["nodes"].size();
     Ordered& json = root_["nodes"][node];
-    json["extensions"].erase(kLights);
+    json["extensions"].erase(kLightsExtension);
     if (json["extensions"].empty()) json.erase("extensions");
     Ordered& children = listIn(json, "children");
     children.insert(children.begin(), index);
@@ -195,7 +195,7 @@ class Editor {
 
   /// A node of its own among the scene's roots, with the light's direction as its -Z.
   void addLight(const Light& light) {
-    use(kLights);
+    use(kLightsExtension);
     const LightType& type = typeOf(light.kind);
     Ordered definition{{"name", light.name}, {"type", type.word}};
     writeIntensity(light, definition);
@@ -210,7 +210,7 @@ class Editor {
          {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(place, 1)})
       for (int i = 0; i < 4; ++i) matrix.push_back(column[i]);
     Ordered node{{"name", light.name}, {"matrix", matrix}};
-    node["extensions"][kLights]["light"] = lights().size();
+    node["extensions"][kLightsExtension]["light"] = lights().size();
     lights().push_back(std::move(definition));
     Ordered& nodes = listIn(root_, "nodes");
     if (hierarchy_.scene >= 0) listIn(root_["scenes"][at(hierarchy_.scene)], "nodes").push_back(nodes.size());

@@ -41,6 +41,7 @@ ErrorScale scaleOf(const std::vector<float>& errors) {
 const std::vector<Code>& errorColors() {
   static const std::vector<Code> colors = [] {
     std::vector<Code> all;
+    all.reserve(kColors);
     for (int i = 0; i < kColors; ++i) all.push_back(rampAt(i / (kColors - 1.0)));
     return all;
   }();

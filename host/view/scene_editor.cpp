@@ -270,7 +270,7 @@ std::string SceneEditor::set(const std::string& id, const std::string& text) {
     using T = std::remove_cvref_t<decltype(all[0])>;
     const Field<T>* const field = at->index < all.size() ? fieldOf(all[at->index], at->field) : nullptr;
     if (!field) return fmt::format("'{}' is no setting of the window", id);
-    const T file(ofFile[at->index]);
+    const T& file = T(ofFile[at->index]);
     T now = all[at->index];
     try {
       const Values standard = field->get(file, origin_);

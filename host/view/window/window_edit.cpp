@@ -7,7 +7,7 @@
 namespace whittle::view {
 namespace {
 
-constexpr float kRadius = 7, kReach = 10;  ///< of a handle: drawn, and for the mouse; pixels
+constexpr float kRadius = 7, kHandleReach = 10;  ///< of a handle: drawn, and for the mouse; pixels
 
 }  // namespace
 
@@ -30,7 +30,7 @@ bool Window::dragHandle(double right, double down) {
   EditModel& edits = model_.edits();
   if (ImGui::IsMouseClicked(0)) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    float nearest = kReach * scale_;
+    float nearest = kHandleReach * scale_;
     for (const EditModel::Handle& h : edits.handles()) {
       const ImVec2 at = inWindow(h.x, h.y);
       const float distance = std::hypot(at.x - mouse.x, at.y - mouse.y);

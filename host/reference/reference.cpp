@@ -106,8 +106,10 @@ std::vector<RayTree> referenceTrees(const Scene& scene, const Settings& settings
   return onThreads(settings, [&] {
     const reference::TriangleIndex triangles(scene);
     const reference::World world{scene, settings, triangles, *camera};
+    const int count = std::min(samples, settings.raysPerPixel);
     std::vector<RayTree> trees;
-    for (int s = 0; s < std::min(samples, settings.raysPerPixel); ++s)
+    trees.reserve(static_cast<std::size_t>(std::max(count, 0)));
+    for (int s = 0; s < count; ++s)
       trees.push_back(reference::treeOfSample(world, x, y, static_cast<std::uint32_t>(s)));
     return trees;
   });

@@ -249,8 +249,11 @@ ViewModel::Explained Viewer::explainedOf(Followed f) {
     e.verdict = verdict(e.tree, *beside, scene);
     e.parts = comparison->parting.has_value();
   }
+  const auto brightness = [](const glm::dvec3& c) { return std::max({0.0, c.x, c.y, c.z}); };
+  const double all = brightness(sumOf(e.tree));
   for (std::size_t i = 0; i < e.tree.rays.size(); ++i) {
-    e.titles.push_back(rayTitle(e.tree, i, scene));
+    const double share = all > 0 ? brightness(shareOf(e.tree.rays[i])) / all : 0.0;
+    e.titles.push_back(fmt::format("{}, adds {:.0f} %", rayTitle(e.tree, i, scene), 100 * share));
     e.lines.push_back(rayLines(e.tree, i, scene, beside ? &*beside : nullptr));
   }
   e.drawn = drawnRays(e.tree, scene, f.request.camera, static_cast<double>(settings.width) / settings.height);

@@ -45,7 +45,18 @@ TEST_F(ExplanationPanel, ComparesWithTheReferenceWhenItIsAskedTo) {
       "set with-reference on\nwait 0.2\nkey Escape\nwait 2\nexpect view.explainedRays == 0\n"
       "click 20 20\nwait 2\nexpect view.isCompared == true\nset bounces 2\nexpect view.isCompared == false\n"
       "wait refined\n");
-  EXPECT_NE(play("set reference maybe\n").err.find("'maybe' is not one of on|off"), std::string::npos);
+  EXPECT_NE(play("set with-reference maybe\n").err.find("'maybe' is not one of on|off"), std::string::npos);
+}
+
+/// The switch itself, in the window of 1280×720, while the picture is still under way: the list goes and
+/// comes anew.
+TEST_F(ExplanationPanel, IsAskedAnewWhileThePictureRefines) {
+  std::vector<std::string> many = kSmall;
+  many[5] = "100000";  // rays for each pixel
+  expectPlayed(
+      "wait picture\nclick 88 60\nwait 2\nexpect view.explainedRays > 1\nexpect view.finished == false\n"
+      "click 1000 99 window\nwait 3\nexpect view.isCompared == true\nexpect view.explainedRays > 1\n",
+      many);
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ int explanationPanel(ViewModel& model) {
   }
   wordsWrapped(e->sum);
   referenceSwitch(model);
+  if (model.explained() != e) return hovered;  // asked for anew
   if (!e->verdict.empty()) e->parts ? partingWords(e->verdict) : wordsWrapped(e->verdict);
   if (!e->tree.rays.empty()) rayRow(*e, 0, hovered);
   return hovered;

@@ -125,6 +125,19 @@ void features(const Stats& stats) {
   }
 }
 
+/// All rays are there, and the error that was asked for is not reached.
+bool missesTarget(const Stats& stats) {
+  const Settings& s = stats.settings;
+  if (!hasErrorTarget(s) || stats.error.empty()) return false;
+  const ErrorPoint& last = stats.error.back();
+  return last.estimate > (s.targetErrorRelative > 0 ? s.targetErrorRelative * last.mean : s.targetError);
+}
+
+const char* statusOf(const ViewModel& model, const Stats& stats) {
+  if (!model.isFinished()) return "stopped";
+  return missesTarget(stats) ? "done; the error takes more rays per pixel" : "done";
+}
+
 }  // namespace
 
 void statisticsPanel(const ViewModel& model) {
@@ -134,7 +147,7 @@ void statisticsPanel(const ViewModel& model) {
     ImGui::Text("%s", fmt::format("{} … {:.1f} s", p.doing, p.seconds).c_str());
     if (p.share >= 0) ImGui::ProgressBar(static_cast<float>(p.share), {-1, ImGui::GetTextLineHeight()});
   } else if (result) {
-    ImGui::TextUnformatted(model.isFinished() ? "done" : "stopped");
+    ImGui::TextUnformatted(statusOf(model, result->stats));
   }
   if (!result) return;
   const Stats& stats = result->stats;

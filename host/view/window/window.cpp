@@ -208,7 +208,10 @@ void Window::drawPanels(float width, float height) {
       ImGui::SetCursorPosY((line - ImGui::GetTextLineHeight()) / 2);
       if (ImGui::SmallButton("H: help")) panels_.showsHelp = !panels_.showsHelp;
       ImGui::SameLine();
-      messageLine(model_);
+      if (panels_.showsPanels && !shown)
+        ImGui::TextDisabled("no room for the panels: make the window larger");
+      else
+        messageLine(model_);
     });
   helpWindow(panels_);
 }

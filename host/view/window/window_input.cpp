@@ -106,6 +106,8 @@ void Window::moveCamera() {
 void Window::pressed(int key, int mods) {
   framesToDraw_ = kFramesAfterEvent;
   if (ImGui::GetIO().WantTextInput) return;
+  if (key == GLFW_KEY_ESCAPE && ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId))
+    return;  // it means the list
   const bool ctrl = (mods & GLFW_MOD_CONTROL) != 0;
   if (!ctrl && std::string("WASDQE").find(static_cast<char>(key < 128 ? key : 0)) != std::string::npos &&
       key < 128)

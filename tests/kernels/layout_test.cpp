@@ -23,8 +23,9 @@ struct Field {
 std::map<std::string, std::size_t> hostSizes() {
 #define SIZE_OF(Structure) \
   { #Structure, sizeof(device::Structure) }
-  return {SIZE_OF(Node),        SIZE_OF(DeviceTriangle), SIZE_OF(DeviceMaterial),  SIZE_OF(DeviceTexture),
-          SIZE_OF(DeviceLight), SIZE_OF(DeviceCamera),   SIZE_OF(RenderConstants), SIZE_OF(Batch)};
+  return {SIZE_OF(Node),          SIZE_OF(DeviceTriangle),  SIZE_OF(DeviceMaterial),
+          SIZE_OF(DeviceTexture), SIZE_OF(DeviceLight),     SIZE_OF(DeviceEmitter),
+          SIZE_OF(DeviceCamera),  SIZE_OF(RenderConstants), SIZE_OF(Batch)};
 #undef SIZE_OF
 }
 

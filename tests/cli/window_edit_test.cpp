@@ -26,7 +26,7 @@ TEST_F(WindowEditTest, WhatIsSavedIsRenderedAsItWasShown) {
       "set material.1.base-color 0.1,0.2,0.9\nset material.4.roughness 0.4\nset material.5.transmission 0.5\n"
       "set material.0.metallic 0.5\nset material.3.emission 1,2,3\nwait refined\nkey Ctrl+S\nwait 0.2\n"
       "save-scene copy.glb\nsave-scene copy.glb\n");
-  const Codes window = read("whittle-001.png"), picture = rendered("copy.glb");
+  const Codes window = read("cornell_box-001.png"), picture = rendered("copy.glb");
   EXPECT_EQ(window.bytes, picture.bytes);
   EXPECT_NE(window.bytes, rendered(scene("cornell_box.glb")).bytes);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "copy-2.glb"));

@@ -4,7 +4,6 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cmath>
 #include <future>
 
 #include "programs/compiler_process.h"
@@ -14,8 +13,8 @@
 #include "render/preparation.h"
 #include "render/sampling_loop.h"
 #include "scene/camera.h"
-#include "scene/light_size.h"
 #include "wavefront/camera_to_device.h"
+#include "wavefront/constants_to_device.h"
 #include "wavefront/film.h"
 #include "wavefront/pixel_recorder.h"
 #include "wavefront/ray_recorder.h"
@@ -50,33 +49,6 @@ Compiled compileKernels(OpenDevice& device, const Settings& settings, const Deci
   Compiled compiled{compileOnce(device, programs, target, beside), PhaseLog::secondsSince(start)};
   if (hooks.trace) hooks.trace->phase("compile kernels", start, Trace::Track::Compiler);
   return compiled;
-}
-
-/// Within the map's width, so that one step around the end is enough; exactly a half where it is not turned.
-float backgroundAhead(const Background& background) {
-  return static_cast<float>(0.5 + std::remainder(background.rotation, 360.0) / 360.0);
-}
-
-device::RenderConstants constantsToDevice(const Scene& scene, const Camera& camera, const Settings& s) {
-  const glm::vec3& b = scene.background.radiance;
-  return {.background = {b.x, b.y, b.z},
-          .rayOffset = s.rayOffset.value_or(-1.0F),
-          .backgroundWidth = scene.background.width,
-          .backgroundHeight = scene.background.height,
-          .mirrorRoughness = s.mirrorRoughness,
-          .seed = s.seed,
-          .cutoff = s.cutoff,
-          .forward = {camera.forward.x, camera.forward.y, camera.forward.z},
-          .zfar = camera.zfar,
-          .transparentBounces = static_cast<std::uint32_t>(s.transparentBounces),
-          .ambient = s.ambient.value_or(0.0F),
-          .backgroundAhead = backgroundAhead(scene.background),
-          .backgroundClear = s.alpha ? 1U : 0U,
-          .lightRadius = s.lightRadius,
-          .sunVersine = static_cast<float>(sunVersine(s)),
-          .sampler = static_cast<std::uint32_t>(s.sampler),
-          .raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel),
-          .glossy = s.glossy ? 1U : 0U};
 }
 
 std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& settings,

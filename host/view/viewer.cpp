@@ -5,15 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <utility>
 
 #include "analysis/focus.h"
-#include "reference/reference.h"
 #include "render/aovs.h"
-#include "render/explanation.h"
 #include "report/stats.h"
 #include "scene/input_error.h"
 #include "view/false_colors.h"
@@ -22,7 +18,6 @@
 namespace whittle::view {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::size_t kMessages = 200;
 constexpr std::chrono::milliseconds kLookEvery{400};  ///< at the scene's file
 /// Settings that only change how radiance becomes codes.
@@ -55,8 +50,7 @@ Viewer::Viewer(Services services, const Settings& settings, const std::filesyste
   layer.tip =
       "radiance; or what each pixel's first sample meets: distance, normal, base colour, triangle; how many "
       "samples the pixel has and their standard error; at which bounce the first sample's light came, and "
-      "how "
-      "many nodes and triangles the searches for its hits visited";
+      "how many nodes and triangles the searches for its hits visited";
   services_.controls.insert(services_.controls.begin(), layer);
   const auto comparing = Comparison::controls();
   const auto afterPicture = std::find_if(services_.controls.begin(), services_.controls.end(),
@@ -205,74 +199,6 @@ bool Viewer::hasMemory() {
   return true;
 }
 
-void Viewer::explain(double x, double y) {
-  if (!scene_ || !(x >= 0 && x < 1 && y >= 0 && y < 1) || !hasMemory()) return;
-  follow(static_cast<int>(x * settings_.width), static_cast<int>(y * settings_.height));
-}
-
-/// The reference comes later: it builds a tree over the scene of its own.
-void Viewer::follow(int x, int y) {
-  const std::uint64_t number = ++follows_;
-  Followed followed{number, request(), x, y, {}, {}};
-  const bool isDone = isFinished(), compares = comparesWithReference_;
-  live_.explain(request(), x, y, [this, compares, followed](const std::vector<RayTree>& trees) mutable {
-    followed.tree = trees.at(0);
-    deliver(followed);
-    if (!compares) return;
-    const Request& r = followed.request;
-    followed.reference = referenceTrees(*r.scene, r.settings, followed.x, followed.y, &r.camera, 1).at(0);
-    deliver(followed);
-  });
-  if (!isDone) ask();  // it was cut off
-  followed_ = number;
-}
-
-void Viewer::deliver(const Followed& followed) {
-  {
-    const std::lock_guard lock(mutex_);
-    delivered_ = followed;
-  }
-  services_.wake();
-}
-
-ViewModel::Explained Viewer::explainedOf(Followed f) {
-  const Scene& scene = *f.request.scene;
-  const Settings& settings = f.request.settings;
-  Explained e;
-  e.x = f.x, e.y = f.y;
-  e.tree = std::move(f.tree);
-  std::optional<TreeComparison> comparison;
-  std::optional<Beside> beside;
-  if (f.reference) {
-    comparison = compareTrees(e.tree, *f.reference);
-    beside.emplace(Beside{*f.reference, *comparison});
-    e.verdict = verdict(e.tree, *beside, scene);
-    e.parts = comparison->parting.has_value();
-  }
-  const auto brightness = [](const glm::dvec3& c) { return std::max({0.0, c.x, c.y, c.z}); };
-  const double all = brightness(sumOf(e.tree));
-  for (std::size_t i = 0; i < e.tree.rays.size(); ++i) {
-    const double share = all > 0 ? brightness(shareOf(e.tree.rays[i])) / all : 0.0;
-    e.titles.push_back(fmt::format("{}, adds {:.0f} %", rayTitle(e.tree, i, scene), 100 * share));
-    e.lines.push_back(rayLines(e.tree, i, scene, beside ? &*beside : nullptr));
-  }
-  e.drawn = drawnRays(e.tree, scene, f.request.camera, static_cast<double>(settings.width) / settings.height);
-  const glm::dvec3 sum = sumOf(e.tree);
-  e.sum = fmt::format(
-      "sum of {} rays: {:.6g} {:.6g} {:.6g}; the {} has {:.6g} {:.6g} {:.6g}", e.tree.rays.size(), sum.x,
-      sum.y, sum.z,
-      settings.raysPerPixel > 1 ? fmt::format("first of {} samples", settings.raysPerPixel) : "pixel",
-      e.tree.radiance.x, e.tree.radiance.y, e.tree.radiance.z);
-  return e;
-}
-
-std::string Viewer::switchReference(const std::string& text) {
-  if (text != "on" && text != "off") return fmt::format("with-reference: '{}' is not one of on|off", text);
-  comparesWithReference_ = text == "on";
-  if (explained_) follow(explained_->x, explained_->y);
-  return {};
-}
-
 /// Reads the scene again once its file was written and has been left alone since the last look.
 void Viewer::lookAtFile() {
   const auto now = std::chrono::steady_clock::now();
@@ -405,98 +331,6 @@ std::string Viewer::showLayer(const std::string& layer) {
   else
     ask();
   return {};
-}
-
-void Viewer::cameraMoved() {
-  if (scene_) ask();
-}
-
-void Viewer::orbit(double right, double up) { camera_.orbit(right, up), cameraMoved(); }
-void Viewer::pan(double right, double up) { camera_.pan(right, up), cameraMoved(); }
-void Viewer::zoom(double factor) { camera_.zoom(factor), cameraMoved(); }
-void Viewer::look(double right, double up) { camera_.look(right, up), cameraMoved(); }
-void Viewer::fly(double right, double up, double ahead) {
-  const double step = size() / 100;
-  camera_.fly(right * step, up * step, ahead * step);
-  cameraMoved();
-}
-
-void Viewer::holdPoint(double x, double y) {
-  if (scene_) camera_.setPivot(pointUnder(*scene_, camera_.camera(), aspect(), x, y, camera_.pivot()));
-}
-
-void Viewer::resetCamera() {
-  if (!scene_) return;
-  camera_ = held(scene_->cameras[findCamera(*scene_, settings_.camera)]);
-  ask();
-}
-
-/// As far back along the view as shows the whole box's ball.
-void Viewer::frameAll() {
-  if (!scene_) return;
-  Camera camera = camera_.camera();
-  const double radius = size() / 2, half = halfHeight(camera, aspect());
-  const double least = std::min(1.0, aspect());
-  if (camera.orthographic) {
-    camera.ymag = static_cast<float>(radius / least);
-    camera.aspect = 0;
-    camera.position = glm::vec3(middle() - glm::dvec3(camera.forward) * 2.0 * radius);
-  } else {
-    const double away = radius / std::sin(std::atan(half * least));
-    camera.position = glm::vec3(middle() - glm::dvec3(camera.forward) * away);
-  }
-  camera_ = HandCamera(camera, middle());
-  ask();
-}
-
-void Viewer::seeFrom(Side side) {
-  Camera camera = camera_.camera();
-  const auto look = [&](const glm::vec3& forward, const glm::vec3& up) {
-    camera.forward = forward, camera.up = up, camera.right = glm::cross(forward, up);
-  };
-  if (side == Side::Front) look({0, 0, -1}, {0, 1, 0});
-  if (side == Side::Right) look({-1, 0, 0}, {0, 1, 0});
-  if (side == Side::Top) look({0, -1, 0}, {0, 0, -1});
-  camera_ = HandCamera(camera, middle());
-  frameAll();
-}
-
-void Viewer::switchOrthographic() { camera_.switchOrthographic(), cameraMoved(); }
-
-std::vector<std::string> Viewer::cameras() const {
-  std::vector<std::string> names;
-  if (!scene_) return names;
-  for (std::size_t i = 0; i < scene_->cameras.size(); ++i) {
-    const Camera& c = scene_->cameras[i];
-    names.push_back(fmt::format("{} {}", i, c.name.empty() ? c.node : c.name));
-  }
-  return names;
-}
-
-void Viewer::chooseCamera(std::size_t index) {
-  if (!scene_ || index >= scene_->cameras.size()) return;
-  settings_.camera = std::to_string(index);
-  resetCamera();
-}
-
-double Viewer::fieldOfView() const { return static_cast<double>(camera_.camera().yfov) * kDegrees; }
-void Viewer::setFieldOfView(double degrees) {
-  camera_.setFieldOfView(degrees / kDegrees);
-  cameraMoved();
-}
-
-std::string Viewer::cameraText() const {
-  return scene_ ? services_.cameraText(camera_.camera(), scene_->origin) : std::string();
-}
-
-void Viewer::pasteCamera(const std::string& text) {
-  if (!scene_) return;
-  try {
-    camera_ = held(services_.camera(*scene_, aspect(), text));
-  } catch (const InputError& e) {
-    return say(true, e.what());
-  }
-  ask();
 }
 
 void Viewer::setMoving(bool isMoving) { isMoving_ = isMoving; }

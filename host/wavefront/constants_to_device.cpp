@@ -1,0 +1,40 @@
+// See constants_to_device.h.
+#include "wavefront/constants_to_device.h"
+
+#include <cmath>
+
+#include "scene/light_size.h"
+
+namespace whittle {
+namespace {
+
+/// Within the map's width, so that one step around the end is enough; exactly a half where it is not turned.
+float backgroundAhead(const Background& background) {
+  return static_cast<float>(0.5 + std::remainder(background.rotation, 360.0) / 360.0);
+}
+
+}  // namespace
+
+device::RenderConstants constantsToDevice(const Scene& scene, const Camera& camera, const Settings& s) {
+  const glm::vec3& b = scene.background.radiance;
+  return {.background = {b.x, b.y, b.z},
+          .rayOffset = s.rayOffset.value_or(-1.0F),
+          .backgroundWidth = scene.background.width,
+          .backgroundHeight = scene.background.height,
+          .mirrorRoughness = s.mirrorRoughness,
+          .seed = s.seed,
+          .cutoff = s.cutoff,
+          .forward = {camera.forward.x, camera.forward.y, camera.forward.z},
+          .zfar = camera.zfar,
+          .transparentBounces = static_cast<std::uint32_t>(s.transparentBounces),
+          .ambient = s.ambient.value_or(0.0F),
+          .backgroundAhead = backgroundAhead(scene.background),
+          .backgroundClear = s.alpha ? 1U : 0U,
+          .lightRadius = s.lightRadius,
+          .sunVersine = static_cast<float>(sunVersine(s)),
+          .sampler = static_cast<std::uint32_t>(s.sampler),
+          .raysPerPixel = static_cast<std::uint32_t>(s.raysPerPixel),
+          .glossy = s.glossy ? 1U : 0U};
+}
+
+}  // namespace whittle

@@ -113,6 +113,7 @@ TEST(AovsOfRays, WithATreeARayTestsWhatLiesOnItsWay) {
   scene.cameras[0].position = {0, 2, 0};
   for (const Lanes lanes : {Lanes::One, Lanes::Sixteen}) {
     Settings settings = aovSettings(1, 1, {"cost"});
+    settings.keepAllFeatures = false;  // four programs that no other test asks for: small ones compile sooner
     settings.width = settings.height = 33;
     settings.search = Search::Tree;
     settings.lanes = lanes;

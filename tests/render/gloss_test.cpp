@@ -74,7 +74,7 @@ TEST(DeviceGloss, AgreesWithTheReference) {
       settings.glossy = true;
       settings.impulses = mode;
       settings.raysPerPixel = 2;
-      expectAgreement(compareWithReference(scene, settings), name, 400);
+      expectAgreement(compareWithReference(scene, settings), name, 1);
     }
 }
 

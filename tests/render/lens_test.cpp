@@ -26,19 +26,24 @@ Scene lamp(float distance, float half) {
   return scene;
 }
 
-/// What glows, in units of the picture's half width.
+/// The middle of a picture of that size, larger than any spot below. The rest is black and need not be
+/// traced.
+constexpr int kSize = 101;
+constexpr Region kMiddle{30, 30, 41, 41};
+
+/// What glows in kMiddle, in units of the picture's half width.
 struct Spot {
   double reach = 0;    ///< of the lit pixel farthest from the middle
   double outside = 0;  ///< share of the light farther from the middle than `radius`
 };
 Spot spotOf(const RenderResult& result, double radius) {
-  const int n = result.radiance.width;
   Spot spot;
   double all = 0;
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) {
-      const double light = static_cast<double>(colorOf(result, static_cast<std::size_t>(y * n + x)).x);
-      const double u = (x + 0.5) / n * 2 - 1, v = (y + 0.5) / n * 2 - 1;
+  for (int y = 0; y < kMiddle.height; ++y)
+    for (int x = 0; x < kMiddle.width; ++x) {
+      const auto at = static_cast<std::size_t>(y * kMiddle.width + x);
+      const double light = static_cast<double>(colorOf(result, at).x);
+      const double u = (kMiddle.x + x + 0.5) / kSize * 2 - 1, v = (kMiddle.y + y + 0.5) / kSize * 2 - 1;
       all += light;
       if (std::hypot(u, v) > radius) spot.outside += light;
       if (light > 0) spot.reach = std::max(spot.reach, std::hypot(u, v));
@@ -57,7 +62,8 @@ TEST(Lens, ACircleOfConfusionHasTheDiameterOfTheFormula) {
     for (const auto& [focus, distance] : {Case{2, 4}, Case{4, 2}, Case{3, 100}}) {
       constexpr double kAperture = 0.8;
       Settings settings;
-      settings.width = settings.height = 101;
+      settings.width = settings.height = kSize;
+      settings.crop = kMiddle;
       settings.bounces = 1;
       settings.raysPerPixel = 4096;  // some 600 of which meet the lamp, all pixels together
       settings.sampler = sampler;
@@ -67,7 +73,7 @@ TEST(Lens, ACircleOfConfusionHasTheDiameterOfTheFormula) {
       const double half = 0.004 * distance;  // of the lamp: 0.4 of a pixel's width
       const RenderResult result =
           renderOnDevice(lamp(static_cast<float>(distance), static_cast<float>(half)), settings);
-      const double pixel = 2.0 / 101;
+      const double pixel = 2.0 / kSize;
       EXPECT_NEAR(spotOf(result, 1).reach, diameter / 2, 1.5 * pixel) << focus << " " << distance;
       EXPECT_LT(spotOf(result, diameter / 2 + pixel).outside, 1e-9) << focus << " " << distance;
       // Evenly over the disk: a quarter of the light within half its radius.

@@ -122,7 +122,7 @@ TEST(LightSize, AgreesWithTheReference) {
       settings.lightRadius = 0.05F, settings.sunAngle = 4;
       settings.sampler = sampler;
       settings.raysPerPixel = 4;
-      expectAgreement(compareWithReference(scene, settings), name, 400);
+      expectAgreement(compareWithReference(scene, settings), name, 1);
     }
 }
 

@@ -63,6 +63,12 @@ Json lightsJson(const Scene& scene) {
   return lights;
 }
 
+Json animationsJson(const Scene& scene) {
+  Json animations = Json::array();
+  for (const auto& a : scene.animations) animations.push_back({{"name", a.name}, {"seconds", a.seconds}});
+  return animations;
+}
+
 Json featuresJson(const SceneFeatures& features, const PruningReport& pruning) {
   Json json{{"used", Json::array()}, {"kept", Json::array()}, {"leftOut", Json::array()}};
   for (const auto& line : features.lines()) {
@@ -111,6 +117,7 @@ Json infoJson(const InfoReport& r) {
             {"textures", scene.images.size()},
             {"bounds", boundsJson(scene)},
             {"lights", lightsJson(scene)},
+            {"animations", animationsJson(scene)},
             {"cameras", camerasJson(scene)},
             {"background", backgroundJson(scene.background)},
             {"features", featuresJson(r.features, r.pruning)},

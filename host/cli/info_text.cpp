@@ -111,6 +111,15 @@ std::string contents(const Scene& s) {
     out += entry(i, s.lights[i].name, widestName(s.lights), lightText(s.lights[i], places));
   if (s.lights.size() > kShown)
     out += fmt::format("    … and {} more (--json has them all)\n", formatInteger(s.lights.size() - kShown));
+  if (!s.animations.empty())
+    out += fmt::format("  {}, --time SECONDS shows one\n",
+                       formatSome(s.animations.size(), "animation", "animations"));
+  for (std::size_t i = 0; i < std::min(s.animations.size(), kShown); ++i)
+    out += entry(i, s.animations[i].name, widestName(s.animations),
+                 fmt::format("{} s", formatReal(s.animations[i].seconds)));
+  if (s.animations.size() > kShown)
+    out +=
+        fmt::format("    … and {} more (--json has them all)\n", formatInteger(s.animations.size() - kShown));
   const auto& b = s.background;
   std::string map = b.map.empty() ? "" : fmt::format(" times a map of {}×{}", b.width, b.height);
   if (!b.map.empty() && b.rotation != 0.0) map += fmt::format(", turned by {:g}°", b.rotation);

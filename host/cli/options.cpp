@@ -30,6 +30,7 @@ namespace {
 
 /// Of --memory-limit: whoever asks for less has left out the unit.
 constexpr std::uint64_t kLeastLimit = 1'000'000;
+constexpr double kLongestTime = 1e6;  // seconds
 
 }  // namespace
 
@@ -44,6 +45,12 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
       ->type_name("");
   addText(c, "--scene", [&o](const std::string& v) { o.scene = v; },
           {"NAME|INDEX", "which scene of the file", "the file's default"});
+  addText(c, "--animation", [&o](const std::string& v) { o.animation = v; },
+          {"NAME|INDEX", "which animation of the file is shown at --time; without that, its beginning",
+           "the first"});
+  addText(
+      c, "--time", [&o](const std::string& v) { o.time = parseReal("--time", v, 0, kLongestTime); },
+      {"SECONDS", "show nodes, skins and morph targets as the animation has them then", "as the file rests"});
   addText(c, "--background", [&o](const std::string& v) { o.background = v; },
           {"R,G,B|FILE",
            "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr "
@@ -283,6 +290,8 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   load.viewpoint = chosenViewpoint(options.view);
   if (hasSize) load.aspect = static_cast<double>(settings.width) / settings.height;
   if (!options.scene.empty()) load.sceneName = options.scene;
+  load.time = options.time;
+  if (!options.animation.empty()) load.animation = options.animation;
   load.defaultLights = options.defaultLights;
   if (settings.areaLights && !load.defaultLights) load.defaultLights = false;
   load.confined = options.confined;
@@ -305,6 +314,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   settleFocus(options, scene, settings, notices);
   if (settings.glossy && !given(options.mirrorRoughness)) settings.mirrorRoughness = kGlossyMirrorRoughness;
   nowDoing("");
+  if (options.isAgain) return scene;
   for (const auto& text : notices.warnings) warn(text);
   if (!options.quiet)
     for (const auto& text : notices.notes) note(text);

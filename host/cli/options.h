@@ -25,6 +25,9 @@ struct SceneOptions {
   bool defaultBackground = true;
   bool confined = false;  ///< see LoadOptions
   bool quiet = false;
+  std::optional<double> time;         ///< seconds, see LoadOptions
+  std::string animation;              ///< name or index; empty: the first
+  bool isAgain = false;               ///< the same file was loaded before: what it noticed was said then
   std::optional<MemoryLimit> memory;  ///< unset: what the machine has
   ViewpointOptions view;
   std::optional<glm::ivec2> focus;  ///< a pixel to focus on

@@ -22,7 +22,8 @@ std::size_t terminalColumns() {
 
 }  // namespace
 
-ProgressBar::ProgressBar(bool quiet) : on_(!quiet && isatty(STDERR_FILENO)) {}
+ProgressBar::ProgressBar(bool quiet, std::string what)
+    : on_(!quiet && isatty(STDERR_FILENO)), what_(what.empty() ? "" : std::move(what) + ": ") {}
 
 ProgressBar::~ProgressBar() {
   clear();
@@ -40,7 +41,8 @@ void ProgressBar::show(const std::string& line) {
   shown_ = true;
 }
 
-void ProgressBar::phase(const std::string& text) {
+void ProgressBar::phase(const std::string& phase) {
+  const std::string text = what_ + phase;
   nowDoing(text);
   if (on_) show(columnsOf(text) + 2 < terminalColumns() ? text + " …" : "…");
 }
@@ -50,7 +52,7 @@ void ProgressBar::update(double fraction, double seconds, const std::string& rat
   if (!on_ || now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
   fraction = std::clamp(fraction, 0.0, 1.0);
-  std::string text = fmt::format("{:3.0f} %", 100.0 * fraction);
+  std::string text = fmt::format("{}{:3.0f} %", what_, 100.0 * fraction);
   if (!rate.empty()) text += "  " + rate;
   if (fraction > 0.0 && fraction < 1.0)
     text += "  " + formatSeconds(std::max(1.0, seconds / fraction - seconds)) + " left";

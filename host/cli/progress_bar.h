@@ -8,12 +8,13 @@ namespace whittle::cli {
 
 class ProgressBar {
  public:
-  explicit ProgressBar(bool quiet);
+  /// `what`: stands before every phase, "frame 3 of 48".
+  explicit ProgressBar(bool quiet, std::string what = {});
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  void phase(const std::string& text);
+  void phase(const std::string& phase);
   /// `rate`: for instance "12.3 Mrays/s"; empty to leave it out.
   void update(double fraction, double seconds, const std::string& rate);
   void clear();
@@ -22,6 +23,7 @@ class ProgressBar {
   void show(const std::string& line);
 
   bool on_;
+  std::string what_;
   bool shown_ = false;
   std::chrono::steady_clock::time_point last_{};
 };

@@ -1,11 +1,8 @@
 // whittle render: the OpenCL wavefront, from a glTF file to pictures and statistics.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <future>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
@@ -13,14 +10,14 @@
 #include "cl/device.h"
 #include "cl/kernel_cache.h"
 #include "cli/aovs.h"
-#include "cli/build_failure.h"
 #include "cli/commands.h"
 #include "cli/crop.h"
+#include "cli/draw.h"
 #include "cli/error_options.h"
+#include "cli/frames.h"
 #include "cli/guard.h"
 #include "cli/option_kinds.h"
 #include "cli/options.h"
-#include "cli/output_writer.h"
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/speech.h"
@@ -28,9 +25,6 @@
 #include "render/explanation.h"
 #include "render/peak_memory.h"
 #include "render/render_session.h"
-#include "render/renderer.h"
-#include "report/profile_table.h"
-#include "report/text.h"
 #include "scene/byte_counts.h"
 #include "scene/machine_memory.h"
 
@@ -39,20 +33,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-struct RenderOptions {
-  SceneOptions scene;
-  Settings settings;
-  std::vector<std::filesystem::path> outputs;
-  std::vector<std::string> aovTexts;
-  std::filesystem::path stats, trace, reference, kernelFolder;
-  std::optional<glm::ivec2> explain;  ///< a pixel
-  bool withReference = false;         ///< --explain beside the reference
-  bool json = false;
-  bool profile = false;
-
-  std::vector<AovOutput> aovs;  ///< aovTexts, parsed
-};
 
 /// Fills in the default output and refuses, before anything is loaded, what could not be written at the end.
 OutputCheck checkOutputs(RenderOptions& o) {
@@ -93,26 +73,6 @@ FloatImage readReference(const RenderOptions& o) {
   return image;
 }
 
-/// What `work` returns; errors of kernels and devices in words that help.
-template <typename Work>
-auto explainingErrors(const RenderOptions& o, const Work& work) {
-  try {
-    return work();
-  } catch (const BuildError& e) {
-    explainBuildFailure(e, o.kernelFolder);
-  } catch (const std::invalid_argument& e) {
-    // With nothing asked for, a machine without a device is no wrong usage.
-    if (!o.settings.device.empty()) throw;
-    const auto limit = addressLimit();
-    throw std::runtime_error(
-        limit ? fmt::format(
-                    "{}; PoCL needs 1.1 GB of addresses, more with many threads, and ulimit -v leaves {}",
-                    e.what(), formatBytes(*limit))
-              : fmt::format("{}; a CPU device needs only pocl-opencl-icd or your system's PoCL package",
-                            e.what()));
-  }
-}
-
 /// The pixel's ray trees, on standard output.
 void tellExplanation(const Scene& scene, const RenderOptions& o) {
   const int x = o.explain->x, y = o.explain->y;
@@ -124,8 +84,8 @@ void tellExplanation(const Scene& scene, const RenderOptions& o) {
   hooks.compiler = "/proc/self/exe";
   ProgressBar bar(o.scene.quiet);
   hooks.phase = [&](const std::string& text) { bar.phase(text); };
-  Explanation explanation{
-      x, y, explainingErrors(o, [&] { return RenderSession().explain(scene, o.settings, x, y, hooks); }), {}};
+  Explanation explanation{x, y, {}, {}};
+  explainingErrors(o, [&] { explanation.trees = RenderSession().explain(scene, o.settings, x, y, hooks); });
   if (o.withReference) {
     bar.phase("tracing in double precision");
     explanation.reference = referenceTrees(scene, o.settings, x, y);
@@ -139,103 +99,96 @@ void tellExplanation(const Scene& scene, const RenderOptions& o) {
     tell(explanationText(explanation, scene, o.settings));
 }
 
-RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const FloatImage& reference,
-                                Trace* trace) {
-  ProgressBar bar(o.scene.quiet);
-  RenderHooks hooks;
-  if (!o.kernelFolder.empty()) hooks.kernelFolder = o.kernelFolder;
-  if (!o.reference.empty()) hooks.reference = &reference;
-  hooks.timeStages = o.profile || trace || !o.stats.empty();
-  hooks.trace = trace;
-  hooks.compiler = "/proc/self/exe";
-  hooks.consumed = &scene;
-  std::future<void> codec;  // loaded while kernels are compiled
-  hooks.phase = [&](const std::string& text) {
-    bar.phase(text);
-    const bool writes = !o.outputs.empty() || !o.aovs.empty();
-    if (writes && text == kFirstPhase) codec = std::async(std::launch::async, loadImageCodec);
-    if (codec.valid() && text == kLastPhase) codec.get();
-  };
-  hooks.progress = [&](const RenderProgress& p) {
-    bar.update(p.samplesDone / p.samplesTotal, p.seconds,
-               formatRate(p.seconds > 0.0 ? static_cast<double>(p.rays) / p.seconds : 0.0));
-  };
-  hooks.note = [&](const std::string& text) {
-    if (o.scene.quiet) return;
-    bar.clear();
-    note(text);
-  };
-  return explainingErrors(o, [&] { return render(scene, o.settings, hooks); });
+/// Of one frame: its files, its time, and how far everything is.
+RenderOptions optionsOf(const RenderOptions& o, const Frames& frames, int frame) {
+  RenderOptions one = o;
+  one.scene.time = frames.secondsOf(frame);
+  one.scene.isAgain = frame > frames.first;
+  one.what = fmt::format("frame {} of {}", frame - frames.first + 1, frames.count());
+  for (auto& file : one.outputs) file = frameFile(file, frame);
+  for (auto& aov : one.aovs) aov.file = frameFile(aov.file, frame);
+  if (!one.stats.empty()) one.stats = frameFile(one.stats, frame);
+  return one;
 }
 
-ImageMetadata pictureMetadata(const RenderOptions& o, const Stats& stats) {
-  return {{"whittle:settings", settingsToJson(stats.settings).dump()},
-          {"whittle:scene", o.scene.file.filename().string()},
-          {"whittle:rays", fmt::format("primary {} impulse {} shadow {}", stats.rays.primary,
-                                       stats.rays.impulse, stats.rays.shadow)},
-          {"whittle:raysPerPixel", fmt::format("least {} mean {:g} most {}", stats.samples.least,
-                                               stats.samples.mean, stats.samples.most)},
-          {"whittle:renderSeconds", fmt::format("{:.6f}", stats.time.render)}};
+/// What makes no sense for many pictures, or would have each in the place of the one before.
+void checkFrameOptions(const RenderOptions& o) {
+  if (o.scene.time) throw InputError("--time and --frames: give one of the two");
+  for (const auto& [isAsked, name] :
+       {std::pair(o.explain.has_value(), "--explain"), std::pair(o.profile, "--profile"),
+        std::pair(!o.trace.empty(), "--trace"), std::pair(!o.reference.empty(), "--reference")})
+    if (isAsked) throw InputError(fmt::format("{}: is for one picture, --frames draws several", name));
+  if (isStandardOutput(o.stats)) throw InputError("--stats: name a file, --frames writes one for each frame");
 }
 
-/// The statistics with the options that only this command knows.
-std::string statsText(const RenderOptions& o, const Stats& stats) {
-  nlohmann::ordered_json json = statsToJson(stats);
-  auto& s = json["settings"];
-  const auto path = [](const std::filesystem::path& p) {
-    return p.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(p.string());
-  };
-  s["scene"] = path(o.scene.scene);
-  s["background"] = path(o.scene.background);
-  s["defaultLights"] = o.scene.defaultLights.value_or(false);
-  s["output"] = nlohmann::ordered_json::array();
-  for (const auto& file : o.outputs) s["output"].push_back(file.string());
-  s["aov"] = o.aovTexts;
-  s["stats"] = path(o.stats);
-  s["profile"] = o.profile;
-  s["trace"] = path(o.trace);
-  s["reference"] = path(o.reference);
-  s["kernels"] = path(o.kernelFolder);
-  s["quiet"] = o.scene.quiet;
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
+/// What was set up around the first frame stays, or a film would jump.
+class FirstFrame {
+ public:
+  explicit FirstFrame(const Scene& scene)
+      : cameras_(scene.cameras),
+        lights_(scene.lights),
+        background_(scene.background),
+        origin_(scene.origin) {}
 
-void writeResults(const RenderOptions& o, const Scene& scene, RenderResult& result, Clock::time_point start,
-                  Trace* trace, OutputWriter& files) {
-  const auto writing = Clock::now();
-  const Look look = lookOf(result.radiance, scene, o.settings, o.outputs, o.scene.quiet);
-  result.stats.settings.exposure = look.stops;
-  const ImageMetadata metadata = pictureMetadata(o, result.stats);
-  nowDoing("writing pictures");
-  for (const auto& file : o.outputs)
-    files.add(file, "",
-              [&](const auto& to) { writePicture(to, result.radiance, result.alpha, look, metadata); });
-  for (const auto& aov : o.aovs)
-    files.add(aov.file, fmt::format(" ({})", aov.name), [&](const auto& to) {
-      writeAov({aov.name, to}, result.radiance, result.alpha, result.aovs, metadata);
-    });
-  nowDoing("");
-  result.stats.time.write = since(writing);
-  result.stats.phases.push_back({"write", steadySeconds(writing), result.stats.time.write});
-  if (trace) {
-    trace->phase("write", writing);
-    files.add(o.trace, " (open it in https://ui.perfetto.dev)",
-              [&](const auto& to) { writeTextFile(to, trace->toText()); });
+  void keepIn(Scene& scene) const {
+    scene.background = background_;
+    if (scene.hasStudioLights) scene.lights = lights_;  // directional: they have no place
+    if (!scene.hasOurCamera) return;
+    scene.cameras = cameras_;
+    for (Camera& camera : scene.cameras)
+      camera.position = glm::vec3(glm::dvec3(camera.position) + origin_ - scene.origin);
   }
-  result.stats.time.total = since(start);
-  if (!o.stats.empty())
-    files.add(o.stats, "", [&](const auto& to) { writeTextFile(to, statsText(o, result.stats)); });
-}
 
-void report(const RenderOptions& o, const Stats& stats, const OutputWriter& files) {
-  const bool taken = isStandardOutput(o.stats) || isStandardOutput(o.trace);
-  if (o.profile) taken ? tellError(profileTable(stats)) : tell(profileTable(stats));
-  if (o.scene.quiet || taken) return;
-  tell(fmt::format("{}{}{}", o.profile ? "\n" : "", renderSummary(stats), files.summary()));
+ private:
+  std::vector<Camera> cameras_;
+  std::vector<Light> lights_;
+  Background background_;
+  glm::dvec3 origin_;
+};
+
+/// One picture after the other on an open device: what does not move stays there. Each has the bits of the
+/// picture at its --time, but for what is chosen to suit the scene (exposure, ambient light, focus, studio, a
+/// camera that is not the file's), which is that of the first.
+int runFrames(RenderOptions& o) {
+  Frames frames = *o.frames.frames;
+  frames.perSecond = o.frames.perSecond;
+  checkFrameOptions(o);
+  checkOutputs(o);
+  RenderOptions last = optionsOf(o, frames, frames.last);
+  last.aovTexts.clear();
+  OutputCheck check = checkOutputs(last);
+  for (const auto& aov : o.aovs) askForAovs(o.settings, {aov.name});
+  warnIfAny(settleKernelCache());
+  prepareCpuThreads(o.settings.threads, o.settings.workGroup);
+  RenderSession session;
+  std::optional<FirstFrame> first;
+  bool isComplete = true;
+  for (int frame = frames.first; frame <= frames.last; ++frame) {
+    const auto start = Clock::now();
+    RenderOptions one = optionsOf(o, frames, frame);
+    Notices notices;
+    notices.notes = uselessOptions(one.settings);
+    MemoryBudget budget = budgetOf(one.scene);
+    Scene scene =
+        loadScene(one.scene, {kTriangleBytes, kRuntimeBytes, pictureBytes}, one.settings, budget, notices);
+    for (const auto& file : notices.files) check.reads(file);
+    if (first)
+      first->keepIn(scene);
+    else
+      first.emplace(scene);
+    if (scene.meshesMove) session.sceneChanged();
+    float stops = 0.0F;
+    isComplete &= drawScene(one, scene, {}, nullptr, &session, start, since(start), stops);
+    o.settings.exposure = stops;
+    o.settings.ambient = one.settings.ambient;
+    o.settings.focusDistance = one.settings.focusDistance;
+  }
+  return isComplete ? 0 : 1;
 }
 
 /// Returns the exit status.
 int runRender(RenderOptions& o) {
+  if (o.frames.frames) return runFrames(o);
   const auto start = Clock::now();
   OutputCheck check = checkOutputs(o);
   for (const auto& aov : o.aovs) askForAovs(o.settings, {aov.name});
@@ -265,21 +218,8 @@ int runRender(RenderOptions& o) {
     tellExplanation(scene, o);
     if (o.outputs.empty() && o.aovs.empty() && o.stats.empty() && o.trace.empty() && !o.profile) return 0;
   }
-  RenderResult result = renderWithProgress(scene, o, reference, trace.get());
-  result.stats.time.load = load;
-  result.stats.phases.insert(result.stats.phases.begin(), {"load", steadySeconds(start), load});
-  if (result.stats.nonFinite > 0)
-    warn(fmt::format("{} samples were not finite and count as black", formatInteger(result.stats.nonFinite)));
-  if (result.stats.ended.cutOff > 0.0 && !std::isfinite(result.stats.biasBound))
-    warn(
-        "no bound on what --cutoff left out: a light lies on a surface that scatters it, a "
-        "mirror glows, or a factor of a material is outside its range");
-  if (!o.scene.quiet)
-    for (const std::string& text : limitNotes(result.stats)) note(text);
-  OutputWriter files;
-  writeResults(o, scene, result, start, trace.get(), files);
-  report(o, result.stats, files);
-  return files.isComplete() ? 0 : 1;
+  float stops = 0.0F;
+  return drawScene(o, scene, reference, trace.get(), nullptr, start, load, stops) ? 0 : 1;
 }
 
 }  // namespace
@@ -316,6 +256,7 @@ void addRender(CLI::App& app, int& status) {
               "more than rounding")
       ->needs("--explain");
   c->add_flag("--json", o->json, "--explain as JSON");
+  addFrameOptions(*c, o->frames);
   addPictureOptions(*c, o->settings, o->scene);
   addErrorOptions(*c, o->settings);
   addFile(*c, "--reference", o->reference, "FILE",

@@ -61,6 +61,12 @@ class Checker {
     if (root.contains(lights)) counts_["lights"] = root[lights].size();
   }
 
+  /// Of a part of the file that is read later, when there are nodes and accessors.
+  Checker(const Document& document, std::vector<Node>& nodes) : document_(document), nodes_(nodes) {
+    counts_["nodes"] = nodes.size();
+    counts_["accessors"] = document.model.accessors.size();
+  }
+
   /// Takes `in` apart on the way, so that no file is there twice.
   Json object(Json& in, std::span<const Field> fields, const Where& where) {
     if (!in.is_object()) wrong(where, "must be an object");
@@ -176,7 +182,7 @@ class Checker {
 
   void addObject(Json checked, const Field& field, Json& out) {
     if (std::string_view(field.key) == "nodes")
-      nodes_.push_back(nodeFrom(checked));
+      nodes_.push_back(nodeFrom(checked, document_.isPosed));
     else
       out.push_back(std::move(checked));
   }
@@ -249,6 +255,16 @@ Json checkedCopy(const Document& document, Json json, std::vector<Node>& nodes) 
     Json checked = checker.object(json, rootFields(), {});
     checker.warnOfForgiven();
     return checked;
+  } catch (const Flaw& flaw) {
+    document.fail(flaw.text);
+  }
+}
+
+Json checkedAnimations(Document& document, Json animations) {
+  Json file = {{"animations", std::move(animations)}};
+  Checker checker(document, document.nodes);
+  try {
+    return checker.object(file, animationFields(), {})["animations"];
   } catch (const Flaw& flaw) {
     document.fail(flaw.text);
   }

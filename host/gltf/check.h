@@ -11,10 +11,12 @@ namespace whittle::gltf {
 /// that does not exist. Of how things look (shapes.cpp: what is forgiven) a property with a flaw is left out
 /// instead, with a warning. `extras` are kept as they are.
 Json checkedCopy(const Document& document, Json json, std::vector<Node>& nodes);
+/// The same of a list of animations, once the rest of the file is open.
+Json checkedAnimations(Document& document, Json animations);
 
-/// The same without buffers, images, materials, extensions and extras: what tinygltf gets to read. It would
-/// otherwise open every file, decode every image and read buffer views unchecked; numbers of extensions it
-/// would squeeze into an int, and a material takes two kilobytes there.
+/// What checkedCopy gives without buffers, images, materials, extensions and extras: what tinygltf gets to
+/// read. It would otherwise open every file, decode every image and read buffer views unchecked; numbers of
+/// extensions it would squeeze into an int, and a material takes two kilobytes there.
 Json descriptionOnly(const Json& checked);
 
 }  // namespace whittle::gltf

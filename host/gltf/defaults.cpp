@@ -31,6 +31,7 @@ bool somethingIsDark(const Scene& scene) {
 
 void addDefaults(Scene& scene, Notices& notices, const LoadOptions& options) {
   const double aspect = options.aspect > 0.0 ? options.aspect : kUsualAspect;
+  scene.hasOurCamera = options.viewpoint || scene.cameras.empty();
   if (options.viewpoint) {
     scene.cameras = {cameraAt(scene, *options.viewpoint, aspect)};
   } else if (scene.cameras.empty()) {

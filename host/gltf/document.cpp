@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "gltf/animation.h"
 #include "gltf/check.h"
 #include "gltf/container.h"
 #include "gltf/json_cost.h"
@@ -232,12 +233,15 @@ void openDocument(Document& document, const std::filesystem::path& path, Notices
   document.hold(document.file.size(), "its bytes");
   Json json = readContainer(document);
   checkVersion(document, json);
-  const auto animations = json.find("animations");
-  const bool isAnimated = animations != json.end() && animations->is_array() && !animations->empty();
+  if (const auto found = json.find("animations"); found != json.end() && found->is_array()) {
+    document.animationFacts = animationsOf(json);
+    document.animations = std::move(*found);
+    json.erase(found);
+  }
   document.json = checkedCopy(document, std::move(json), document.nodes);
   checkExtensions(document, notices);
-  if (isAnimated) notices.note("animations are not played: the rest pose is shown");
-  document.hold(bytesOf(document.json) + bytesOf(document.nodes), "its description");
+  document.hold(bytesOf(document.json) + bytesOf(document.animations) + bytesOf(document.nodes),
+                "its description");
   readDescription(document);
   for (const Json& buffer : child(document.json, "buffers")) {
     if (!buffer.contains("uri")) continue;

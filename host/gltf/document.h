@@ -19,6 +19,7 @@
 #include "scene/input_error.h"
 #include "scene/memory_budget.h"
 #include "scene/notices.h"
+#include "scene/scene.h"
 
 namespace whittle::gltf {
 
@@ -36,9 +37,11 @@ struct Document {
   Bytes file;                         ///< the whole file; of a .glb, `binary` points into it
   std::span<const std::byte> binary;  ///< BIN chunk of a .glb
   bool hasBinary = false;
-  Json json;                ///< checked copy: extensions, extras, buffers and images are read from here
-  std::vector<Node> nodes;  ///< of the file, shown or not
-  tinygltf::Model model;    ///< everything else
+  Json json;        ///< checked copy: extensions, extras, buffers and images are read from here
+  Json animations;  ///< as the file has them, not checked; null where there are none
+  std::vector<AnimationFacts> animationFacts;  ///< what it says of them
+  std::vector<Node> nodes;                     ///< of the file, shown or not
+  tinygltf::Model model;                       ///< everything else
 
   /// What a URI of buffers holds: read on first use, once for all buffers that name it.
   struct UriData {
@@ -50,6 +53,7 @@ struct Document {
 
   Notices* notices = nullptr;                  ///< never null once the file is opened
   MemoryBudget* budget = nullptr;              ///< never null
+  bool isPosed = false;                        ///< an animation will move its nodes
   bool confined = false;                       ///< files outside `folder` are not read
   std::vector<std::filesystem::path> outside;  ///< that were asked for, each once
 

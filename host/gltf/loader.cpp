@@ -7,6 +7,7 @@
 #include <new>
 #include <set>
 
+#include "gltf/animation.h"
 #include "gltf/bake.h"
 #include "gltf/document.h"
 #include "gltf/geometry_sums.h"
@@ -138,8 +139,26 @@ void readBackground(const Document& document, int sceneIndex, Scene& scene, Noti
   scene.background.radiance = {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
 }
 
+/// Which nodes an animation moves, once they are where it has them; says what is shown.
+std::vector<bool> pose(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
+  scene.animations = document.animationFacts;
+  const auto& all = scene.animations;
+  if (document.isPosed) {
+    if (all.empty() && !options.animation) notices.note("--time: the file has no animation, nothing moves");
+    return poseNodes(document, options.animation, options.time.value_or(0.0));
+  }
+  if (!all.empty())
+    notices.note(fmt::format(
+        "the scene is shown at rest; --time SECONDS shows {}{}, {:.4g} s long",
+        all.size() == 1 ? "its animation" : fmt::format("the first of its {} animations", all.size()),
+        quotedName(all[0].name), all[0].seconds));
+  return std::vector<bool>(document.nodes.size());
+}
+
 void load(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
+  std::vector<bool> moved = pose(document, options, scene, notices);
   Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
+  scene.meshesMove = moveMeshes(document, hierarchy, std::move(moved));
   const GeometrySums sums = holdGeometry(document, hierarchy, options.laterTriangleBytes);
   settlePlace(document, hierarchy, notices);
   scene.origin = hierarchy.origin;
@@ -161,6 +180,7 @@ Scene loadFile(const std::filesystem::path& path, const LoadOptions& options, No
   scene.file = path.string();
   gltf::Document document;
   document.confined = options.confined;
+  document.isPosed = options.time || options.animation;
   MemoryBudget own(options.memory ? MemoryLimit{} : memoryLimitOfMachine());
   document.budget = options.memory ? options.memory : &own;
   try {

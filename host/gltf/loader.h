@@ -20,7 +20,9 @@ struct LoadOptions {
   bool defaultBackground = true;            ///< with them, its surroundings
   std::string camera = "0";                 ///< which one lights are added for; see findCamera
   std::optional<Viewpoint> viewpoint = {};  ///< a camera by hand, in the place of the file's
-  bool confined = false;                    ///< refuse a file that asks for others outside its folder
+  std::optional<double> time = {};  ///< seconds: nodes as an animation has them; unset: as the file rests
+  std::optional<std::string> animation = {};  ///< its name or index; unset: the first
+  bool confined = false;                      ///< refuse a file that asks for others outside its folder
   /// Width over height of the picture that an added camera frames the scene for; 0: 16:9.
   double aspect = 0.0;
   MemoryBudget* memory = nullptr;  ///< what it may take; null: what the machine has

@@ -18,6 +18,17 @@ glm::dvec3 vec3Or(const Json& v, double fallback) {
                        : glm::dvec3(fallback);
 }
 
+Node::Parts partsOf(const Json& node) {
+  Node::Parts parts;
+  const Json& r = child(node, "rotation");
+  if (r.size() == 4)
+    parts.rotation = {r[0].get<double>(), r[1].get<double>(), r[2].get<double>(), r[3].get<double>()};
+  parts.translation = vec3Or(child(node, "translation"), 0.0);
+  parts.scale = vec3Or(child(node, "scale"), 1.0);
+  parts.isMatrix = child(node, "matrix").size() == 16;
+  return parts;
+}
+
 std::unique_ptr<glm::dmat4> localTransform(const Json& node) {
   const Json& matrix = child(node, "matrix");
   if (matrix.size() == 16) {
@@ -26,12 +37,8 @@ std::unique_ptr<glm::dmat4> localTransform(const Json& node) {
     return m;
   }
   if (!node.contains("translation") && !node.contains("rotation") && !node.contains("scale")) return nullptr;
-  const Json& r = child(node, "rotation");
-  const glm::dvec4 rotation = r.size() == 4 ? glm::dvec4(r[0].get<double>(), r[1].get<double>(),
-                                                         r[2].get<double>(), r[3].get<double>())
-                                            : glm::dvec4(0, 0, 0, 1);
-  return std::make_unique<glm::dmat4>(
-      composed(vec3Or(child(node, "translation"), 0.0), rotation, vec3Or(child(node, "scale"), 1.0)));
+  const Node::Parts parts = partsOf(node);
+  return std::make_unique<glm::dmat4>(composed(parts.translation, parts.rotation, parts.scale));
 }
 
 }  // namespace
@@ -41,7 +48,7 @@ const std::vector<double>& Node::weights() const {
   return rare ? rare->weights : kNone;
 }
 
-Node nodeFrom(const Json& checked) {
+Node nodeFrom(const Json& checked, bool keepParts) {
   Node node;
   if (const auto found = checked.find("name"); found != checked.end()) node.name = found->get<std::string>();
   node.mesh = indexIn(checked, "mesh");
@@ -60,7 +67,8 @@ Node nodeFrom(const Json& checked) {
       rare.instancing->emplace_back(name, accessor.get<int>());
   }
   rare.castsShadows = leavesShadows(child(checked, "extras"));
-  if (!rare.weights.empty() || rare.instancing || !rare.castsShadows)
+  if (keepParts) rare.parts = partsOf(checked);
+  if (!rare.weights.empty() || rare.instancing || !rare.castsShadows || keepParts)
     node.rare = std::make_unique<Node::Rare>(std::move(rare));
   return node;
 }

@@ -18,12 +18,21 @@ struct Node {
   std::vector<int> children;          ///< in file order
   std::unique_ptr<glm::dmat4> local;  ///< to the parent; null: the identity
 
+  /// What animations move one by one.
+  struct Parts {
+    glm::dvec3 translation{0.0};
+    glm::dvec4 rotation{0, 0, 0, 1};  ///< x, y, z, w
+    glm::dvec3 scale{1.0};
+    bool isMatrix = false;  ///< the file has a matrix instead
+  };
+
   /// What few nodes have.
   struct Rare {
     std::vector<double> weights;  ///< of morph targets, in the place of the mesh's
     /// EXT_mesh_gpu_instancing: attributes and their accessors; unset: the mesh is there once.
     std::optional<std::vector<std::pair<std::string, int>>> instancing;
-    bool castsShadows = true;  ///< its light, as far as the node says
+    bool castsShadows = true;    ///< its light, as far as the node says
+    std::optional<Parts> parts;  ///< of `local`; where an animation is to be played
   };
   std::unique_ptr<Rare> rare;  ///< null: as Rare is made
 
@@ -31,8 +40,8 @@ struct Node {
   bool castsShadows() const { return !rare || rare->castsShadows; }
 };
 
-/// From a checked node of the file (check.h).
-Node nodeFrom(const nlohmann::json& checked);
+/// From a checked node of the file (check.h). `keepParts`: see Rare.
+Node nodeFrom(const nlohmann::json& checked, bool keepParts);
 
 /// T · R · S; the quaternion (x, y, z, w) is normalised first, and one of length 0 turns nothing.
 glm::dmat4 composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);

@@ -143,6 +143,13 @@ constexpr auto kMaterial = forgiving(std::array{
     text("name"), object("pbrMetallicRoughness", kPbr), object("normalTexture", kSlot),
     object("occlusionTexture", kSlot), object("emissiveTexture", kSlot), nums("emissiveFactor", 3),
     text("alphaMode"), num("alphaCutoff"), flag("doubleSided"), object("extensions", kMaterialExtensions)});
+constexpr std::array kChannelTarget{index("node", "nodes"), required(text("path"))};
+constexpr std::array kChannel{required(smallSize("sampler")), required(object("target", kChannelTarget))};
+constexpr std::array kAnimationSampler{required(index("input", "accessors")),
+                                       required(index("output", "accessors")), text("interpolation")};
+constexpr std::array kAnimation{forgiven(text("name")), required(objects("channels", kChannel)),
+                                required(objects("samplers", kAnimationSampler))};
+constexpr std::array kAnimations{objects("animations", kAnimation)};
 constexpr std::array kRoot{required(object("asset", kAsset)),
                            texts("extensionsUsed"),
                            texts("extensionsRequired"),
@@ -172,6 +179,8 @@ bool hasExtension(std::span<const Field> fields, std::string_view name) {
 }  // namespace
 
 std::span<const Field> rootFields() { return kRoot; }
+
+std::span<const Field> animationFields() { return kAnimations; }
 
 bool readsExtension(std::string_view name) { return hasExtension(kRoot, name); }
 

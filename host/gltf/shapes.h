@@ -23,6 +23,8 @@ struct Field {
 
 /// The members of the file's root object; everything else hangs on them.
 std::span<const Field> rootFields();
+/// An object with a list of animations, which are checked when one is to be played.
+std::span<const Field> animationFields();
 /// Whether some object's "extensions" may hold this one.
 bool readsExtension(std::string_view name);
 

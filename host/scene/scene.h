@@ -177,6 +177,12 @@ struct Background {
   glm::vec3 unscaled{0.0F};  ///< `radiance` before a strength was applied (turnAndScale)
 };
 
+/// One of the animations of the scene's file.
+struct AnimationFacts {
+  std::string name;
+  double seconds = 0.0;  ///< the time of its last keyframe, as the file says
+};
+
 /// Per-vertex arrays are either empty (no triangle of the scene needs them) or as long as `positions`.
 struct Scene {
   std::string file;
@@ -192,10 +198,14 @@ struct Scene {
   std::vector<Light> lights;
   bool hasStudioLights = false;  ///< they are ours, since the file has none
   std::vector<Camera> cameras;   ///< never empty after loading
+  bool hasOurCamera = false;     ///< it was set up around the scene, or by hand
   Background background;
   /// Where the scene's coordinates begin, in those of the file, metres: 0 but for scenes far from there,
   /// which single precision would shake. Whoever shows coordinates adds it.
   glm::dvec3 origin{0.0};
+  std::vector<AnimationFacts> animations = {};
+  /// The animation that is played moves or bends meshes, not only cameras and lights.
+  bool meshesMove = false;
   std::uint64_t droppedTriangles = 0;  ///< not finite, or |coordinate| > 1.8e18, or a repeated position
 };
 

@@ -14,7 +14,8 @@ namespace {
 using test::GltfBuilder;
 using test::Json;
 
-/// A skin, a morph target, sparse values, instances, a texture with transform and sampler, lights, cameras.
+/// An animation, a skin, a morph target, sparse values, instances, a texture with transform and sampler,
+/// lights, cameras.
 GltfBuilder everything() {
   GltfBuilder b;
   b.json["extensionsUsed"] = {"KHR_texture_transform", "EXT_mesh_gpu_instancing", "KHR_lights_punctual"};
@@ -87,6 +88,19 @@ GltfBuilder everything() {
           {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
           {"extensions",
            {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", b.vec3({0, 0, 0, 1, 1, 1})}}}}}}}});
+  b.push("animations",
+         {{"name", "a"},
+          {"samplers",
+           {{{"input", b.floats("SCALAR", 1, {0, 1})}, {"output", b.vec3({0, 0, 0, 1, 1, 1})}},
+            {{"input", b.floats("SCALAR", 1, {0, 1})},
+             {"output",
+              b.floats("VEC4", 4, {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0})},
+             {"interpolation", "CUBICSPLINE"}},
+            {{"input", b.floats("SCALAR", 1, {0, 1})}, {"output", b.floats("SCALAR", 1, {0, 1})}}}},
+          {"channels",
+           {{{"sampler", 0}, {"target", {{"node", joint}, {"path", "translation"}}}},
+            {{"sampler", 1}, {"target", {{"node", joint}, {"path", "rotation"}}}},
+            {{"sampler", 2}, {"target", {{"node", joint + 1}, {"path", "weights"}}}}}}});
   b.json["scenes"][0]["extras"]["whittle"]["background"] = {1, 1, 1};
   b.json["buffers"] = Json::array({{{"byteLength", b.binary.size()}}});
   return b;
@@ -106,8 +120,10 @@ void collect(const Json& json, const Json::json_pointer& here, std::vector<Json:
 bool loadsOrSays(const test::TemporaryFolder& folder, const std::string& content) {
   const auto path = folder.write("fuzz.glb", content);
   Notices notices;
+  LoadOptions options;
+  options.time = 0.5;
   try {
-    loadGltf(path, {}, notices);
+    loadGltf(path, options, notices);
     return true;
   } catch (const InputError& e) {
     const std::string text = e.what();

@@ -1,0 +1,48 @@
+// One picture, from a loaded scene to its files: what `whittle render` does once, and --frames for each
+// frame.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/aovs.h"
+#include "cli/frames.h"
+#include "cli/options.h"
+#include "render/render_session.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace whittle::cli {
+
+struct RenderOptions {
+  SceneOptions scene;
+  Settings settings;
+  std::vector<std::filesystem::path> outputs;
+  std::vector<std::string> aovTexts;
+  std::filesystem::path stats, trace, reference, kernelFolder;
+  std::optional<glm::ivec2> explain;  ///< a pixel
+  bool withReference = false;         ///< --explain beside the reference
+  bool json = false;
+  bool profile = false;
+  FrameOptions frames;
+  std::string what = {};  ///< is drawn, of several pictures
+
+  std::vector<AovOutput> aovs;  ///< aovTexts, parsed
+};
+
+/// Runs `work`; errors of kernels and devices in words that help.
+void explainingErrors(const RenderOptions& o, const std::function<void()>& work);
+
+/// Renders a loaded scene and writes what is asked for. `session`: holds what the next picture needs too;
+/// null: there is none. `load`: what loading took since `start`, seconds. Returns whether every file is where
+/// it should be; `stops` becomes the exposure that was chosen.
+bool drawScene(RenderOptions& o, Scene& scene, const FloatImage& reference, Trace* trace,
+               RenderSession* session, std::chrono::steady_clock::time_point start, double load,
+               float& stops);
+
+}  // namespace whittle::cli

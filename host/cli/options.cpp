@@ -51,12 +51,11 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
            "as the file says"});
   c.add_flag_callback(
       "--default-lights", [&o] { o.defaultLights = true; },
-      "light a file that has neither lights nor a background like a studio [where something "
-      "would be dark]");
+      "light a file that has neither lights nor a background like a studio [where something would be dark]");
   c.add_flag_callback(
-      "--no-default-lights", [&o] { o.defaultLights = false; }, "or never");
+      "--no-default-lights", [&o] { o.defaultLights = false; }, "never do so");
   c.add_flag("--default-background,!--no-default-background", o.defaultBackground,
-             "and put the studio's surroundings there, for smooth surfaces to mirror [on]");
+             "with those lights, surroundings of a studio for smooth surfaces to mirror [on]");
   c.add_flag(
       "--confine", o.confined,
       "refuse a file that reads buffers or images outside its own folder; otherwise a note says so [off]");
@@ -89,10 +88,8 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
           },
           {"X,Y,W,H",
            "trace only this region, from the picture's top left, in pixels, or in shares of its width and "
-           "height with "
-           "a decimal point or %: 25%,25%,50%,50%. Its pixels have the bits of the whole picture; files have "
-           "its size, "
-           "an .exr its place; error, statistics and memory are its own",
+           "height with a decimal point or %: 25%,25%,50%,50%. Its pixels have the bits of the whole "
+           "picture; files have its size, an .exr its place; error, statistics and memory are its own",
            "none"});
   addText(c, "--pixel",
           [&o](const std::string& word) {
@@ -128,9 +125,8 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
   c.add_flag(
       "--alpha", s.alpha,
       "give .png (colours not multiplied by it), .exr (multiplied) and --aov all an alpha channel: the "
-      "background "
-      "is left out where it is seen straight on, and out of what --exposure auto looks at; mirrors and solid "
-      "glass still show it [off]");
+      "background is left out where it is seen straight on, and out of what --exposure auto looks at; "
+      "mirrors and solid glass still show it [off]");
   c.add_flag("--clip-far", s.clipFar,
              "show nothing beyond the camera's zfar; many tools write one that means nothing [off]");
   o.ambient = addText(
@@ -203,8 +199,7 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
           [&s](const std::string& v) { s.keepFeatures = parseFeatureNames("--keep-features", v); },
           {"LIST",
            "compile and run these and what they need, whatever the scene needs: names as `whittle info` has "
-           "them, with "
-           "commas",
+           "them, with commas",
            ""});
 }
 

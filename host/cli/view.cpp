@@ -240,8 +240,7 @@ void addView(CLI::App& app, int& status) {
           "keys, mouse, settings, screenshots and expectations, a command a line: host/view/README.md");
   addFile(*c, "--compare", o->reference, "FILE",
           "show a reference of the picture's size beside it, split by a line: an .exr or .hdr (radiance), or "
-          "a .png "
-          "or .jpg (codes)");
+          "a .png or .jpg (codes)");
   addFile(*c, "--kernels", o->kernelFolder, "FOLDER",
           "read kernels from here, not from the program (for developers)");
   c->footer("Example: whittle view scenes/cornell_box.glb\nH in the window shows its keys.");

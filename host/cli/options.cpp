@@ -30,6 +30,8 @@ namespace {
 
 /// Of --memory-limit: whoever asks for less has left out the unit.
 constexpr std::uint64_t kLeastLimit = 1'000'000;
+/// Surfaces smoother than this look like mirrors, glossy or not.
+constexpr float kGlossyMirrorRoughness = 0.03F;
 
 }  // namespace
 
@@ -154,10 +156,9 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
           },
           {"auto|METRES", "focus on this distance along the camera's axis", "auto: what the middle shows"})
       ->excludes(o.focusPixel);
-  c.add_flag(
-      "--glossy,!--no-glossy", s.glossy,
-      "rough surfaces reflect and refract what is around them, blurred, from several rays per pixel on; "
-      "--mirror-roughness is 0.03 then unless it is given [off]");
+  c.add_flag("--glossy,!--no-glossy", s.glossy,
+             "rough surfaces reflect and refract what is around them, blurred, from several rays per pixel "
+             "on [off]");
   c.add_flag(
       "--area-lights,!--no-area-lights", s.areaLights,
       "surfaces that glow light others, from several rays per pixel on; the scene gets no lights of ours "
@@ -172,9 +173,9 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
   addChoice(c, "--impulses", s.impulses, "follow both branches of a surface, or one chosen at random");
   addReal(c, "--ray-offset,--bump", s.rayOffset, 0, 1e30, "METRES",
           "distance of a ray's origin from its surface", "from the rounding error of each hit");
-  o.mirrorRoughness =
-      addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R",
-              "surfaces smoother than this are mirrors", fmt::format("{}", s.mirrorRoughness));
+  o.mirrorRoughness = addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R",
+                              "surfaces smoother than this are mirrors",
+                              fmt::format("{}; {} with --glossy", s.mirrorRoughness, kGlossyMirrorRoughness));
 }
 
 void addDeviceOptions(CLI::App& c, Settings& s) {
@@ -201,6 +202,14 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
            "compile and run these and what they need, whatever the scene needs: names as `whittle info` has "
            "them, with commas",
            ""});
+}
+
+float standardMirrorRoughness(const Settings& settings) {
+  return settings.glossy ? kGlossyMirrorRoughness : Settings{}.mirrorRoughness;
+}
+
+void settleMirrorRoughness(const SceneOptions& options, Settings& settings) {
+  if (!given(options.mirrorRoughness)) settings.mirrorRoughness = standardMirrorRoughness(settings);
 }
 
 std::vector<std::string> uselessOptions(const Settings& settings) {
@@ -237,9 +246,6 @@ void promisePicture(MemoryBudget& budget, const CommandCosts& costs, const Setti
 }
 
 namespace {
-
-/// Surfaces smoother than this look like mirrors, glossy or not.
-constexpr float kGlossyMirrorRoughness = 0.03F;
 
 /// What a lens is focused on, where nobody gives a distance.
 void settleFocus(const SceneOptions& options, const Scene& scene, Settings& settings, Notices& notices) {
@@ -298,7 +304,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
                              *settings.ambient));
   }
   settleFocus(options, scene, settings, notices);
-  if (settings.glossy && !given(options.mirrorRoughness)) settings.mirrorRoughness = kGlossyMirrorRoughness;
+  settleMirrorRoughness(options, settings);
   nowDoing("");
   for (const auto& text : notices.warnings) warn(text);
   if (!options.quiet)

@@ -179,8 +179,14 @@ int runView(ViewOptions& o) {
   Settings standard;
   standard.raysPerPixel = kRaysPerPixel;
   services.controls = settingControls(standard, listDevices());
+  services.standard = [standard](const Settings& settings, const std::string& id) {
+    return standardText(standard, settings, id);
+  };
   services.value = settingText;
-  services.set = setSetting;
+  services.set = [](Settings& settings, const std::string& id, const std::string& text) {
+    setSetting(settings, id, text);
+    if (id == "target-error" || id == "time-limit") followTarget(settings, kRaysPerPixel);
+  };
   services.load = [sources](const fs::path& file, Settings& settings, std::vector<std::string>& notes) {
     return sources->load(file, settings, notes);
   };
@@ -203,6 +209,7 @@ int runView(ViewOptions& o) {
   services.wake = [&library] { library.wake(); };
   services.compiler = "/proc/self/exe";
   if (!o.kernelFolder.empty()) services.kernelFolder = o.kernelFolder;
+  settleMirrorRoughness(o.scene, o.settings);
   view::Viewer viewer(std::move(services), o.settings, o.scene.file);
 
   if (!o.reference.empty()) viewer.set("reference", o.reference.string());

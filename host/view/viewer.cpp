@@ -56,7 +56,13 @@ Viewer::Viewer(Services services, const Settings& settings, const std::filesyste
   const auto afterPicture = std::find_if(services_.controls.begin(), services_.controls.end(),
                                          [](const Control& c) { return c.group != "Picture"; });
   services_.controls.insert(afterPicture, comparing.begin(), comparing.end());
+  renewStandards();
   if (!file.empty()) load(file, false);
+}
+
+void Viewer::renewStandards() {
+  for (Control& c : services_.controls)
+    if (c.id != kLayerControl && !Comparison::has(c.id)) c.standard = services_.standard(settings_, c.id);
 }
 
 void Viewer::say(bool isError, std::string text) {
@@ -309,6 +315,7 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
   }
   if (changed.width != settings_.width || changed.height != settings_.height) changed.crop.reset();
   settings_ = changed;
+  renewStandards();
   if (isOfCodes(id))
     makeCodes();
   else if (isOfBackground(id))

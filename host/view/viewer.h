@@ -25,6 +25,8 @@ inline constexpr const char* kLayerControl = "show";
 /// What the command line knows and the model does not. All but `load` are called by the window's thread.
 struct Services {
   std::vector<Control> controls;
+  /// The default of a control, which another setting may decide.
+  std::function<std::string(const Settings&, const std::string& id)> standard;
   /// The value of a control as text.
   std::function<std::string(const Settings&, const std::string& id)> value;
   /// Throws InputError, with the settings as before.
@@ -135,6 +137,7 @@ class Viewer : public ViewModel {
   void deliver(const Followed& followed);
   static Explained explainedOf(Followed followed);
   void ask(bool coarseFirst = false);
+  void renewStandards();  ///< of the controls
   SceneEditor::Owner owner();
   /// Lights, materials or the background were.
   void edited();

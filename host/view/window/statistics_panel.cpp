@@ -151,7 +151,9 @@ void statisticsPanel(const ViewModel& model) {
   }
   if (!result) return;
   const Stats& stats = result->stats;
-  row("rays per pixel", fmt::format("{:.4g} of {}", stats.samples.mean, stats.settings.raysPerPixel));
+  const bool isEnded = hasErrorTarget(stats.settings) || stats.settings.timeLimit > 0;
+  row("rays per pixel", fmt::format("{:.4g}{} {}", stats.samples.mean, isEnded ? ", at most" : " of",
+                                    stats.settings.raysPerPixel));
   if (!stats.error.empty())
     row("estimated error",
         fmt::format("{:.3g} ({:.2g} %)", stats.error.back().estimate,

@@ -25,8 +25,9 @@ inline constexpr const char* kReferenceSwitch = "with-reference";
 
 /// One setting as a widget: its value is text, as on the command line.
 struct Control {
-  /// Share: from 0 to 1. Amount: a number, more likely to be changed by a part of it. Color: three shares.
-  enum class Kind : std::uint8_t { Switch, Whole, Real, Choice, Text, Share, Amount, Color };
+  /// Share: from 0 to 1. Amount: a number, more likely to be changed by a part of it. Angle: degrees. Color:
+  /// three shares.
+  enum class Kind : std::uint8_t { Switch, Whole, Real, Choice, Text, Share, Amount, Angle, Color };
 
   std::string id;  ///< its option without the hyphens in front: "rays-per-pixel"
   std::string group, label, unit;

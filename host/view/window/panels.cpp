@@ -86,6 +86,14 @@ void amount(ViewModel& model, PanelState& state, const Control& c, const std::st
   tip(c.tip);
 }
 
+/// Half a degree for each pixel of a drag.
+void angle(ViewModel& model, PanelState& state, const Control& c, const std::string& value) {
+  float number = std::strtof(value.c_str(), nullptr);
+  if (ImGui::DragFloat("##value", &number, 0.5F, 0, 0, "%.5g"))
+    apply(model, state, c, fmt::format("{:.6g}", number));
+  tip(c.tip);
+}
+
 void colorField(ViewModel& model, PanelState& state, const Control& c, const std::string& value) {
   std::array<float, 3> rgb{};
   std::istringstream in(value);
@@ -164,6 +172,9 @@ void controlRow(ViewModel& model, PanelState& state, const Control& c) {
       break;
     case Control::Kind::Amount:
       amount(model, state, c, value);
+      break;
+    case Control::Kind::Angle:
+      angle(model, state, c, value);
       break;
     case Control::Kind::Color:
       colorField(model, state, c, value);

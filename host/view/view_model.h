@@ -155,7 +155,7 @@ class ViewModel {
   virtual void open(const std::filesystem::path& file) = 0;
   virtual void reload() = 0;
   /// Writes what is shown as .png and .exr, called after the scene, where the program was started; a message
-  /// says where.
+  /// says where. With a region that alone is written, as `whittle render --crop` does, and its name says so.
   virtual void save() = 0;
   virtual void stop() = 0;
   /// Statistics and state as JSON text, for scripts: stats.…, view.….

@@ -346,9 +346,14 @@ void Viewer::open(const std::filesystem::path& file) { load(file, false); }
 void Viewer::reload() { load({}, true); }
 
 void Viewer::save() {
-  if (!whole_ || !scene_) return say(true, "there is no picture yet");
+  if (!whole_ || !scene_ || shown_.coarse) return say(true, "there is no picture yet");
+  // Around a region the picture is of other settings, or of none.
+  const bool isRegion = shown_.asked.crop.has_value();
+  std::string name = file_.stem().string();
+  if (isRegion) name += "-crop-" + services_.value(shown_.asked, "crop");
   try {
-    say(false, services_.save(file_.stem(), *whole_, *scene_, settings_));
+    const std::string wrote = services_.save(name, isRegion ? *shown_.result : *whole_, *scene_, settings_);
+    say(false, isRegion ? wrote + ": the region alone" : wrote);
   } catch (const std::exception& e) {
     say(true, e.what());
   }

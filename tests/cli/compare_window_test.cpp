@@ -1,4 +1,5 @@
 // A reference and a region in the window: what is seen, code for code, and what is traced.
+#include "image/image_io.h"
 #include "window_fixture.h"
 
 namespace whittle::test {
@@ -168,6 +169,24 @@ TEST_F(CompareWindowTest, OnlyARegionIsRenderedAnew) {
     }
   EXPECT_EQ(wrongInside, 0U);
   EXPECT_EQ(wrongOutside, 0U);
+}
+
+/// As `render --crop` writes it, though what surrounds it was rendered with other settings.
+TEST_F(CompareWindowTest, ARegionIsSavedAlone) {
+  expectPlayed(
+      "wait refined\nset bounces 1\nwait refined\nkey Ctrl+B\ndrag 40.5 20.5 99.5 59.5\nset bounces 3\n"
+      "wait refined\nkey Ctrl+S\nwait 0.2\n",
+      small());
+  renderTo("crop", {"--crop", "40,20,60,40"});
+  const std::string saved = "cornell_box-crop-40,20,60,40-001";
+  ASSERT_EQ(read("crop.png").width, 60);
+  EXPECT_EQ(read(saved + ".png").bytes, read("crop.png").bytes);
+  const FloatImage is = readFloatImage(folder_ / (saved + ".exr")),
+                   wanted = readFloatImage(folder_ / "crop.exr");
+  EXPECT_EQ(is.pixels, wanted.pixels);
+  EXPECT_EQ(is.frame.x, 40);
+  EXPECT_EQ(is.frame.y, wanted.frame.y);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "cornell_box-001.png"));
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ struct ViewOptions {
   Settings settings;
   fs::path script, kernelFolder, reference;
   bool isLight = false;
+  std::optional<float> uiScale;
 };
 
 view::Script readScript(const fs::path& file) {
@@ -218,6 +219,7 @@ int runView(ViewOptions& o) {
   window.title =
       o.scene.file.empty() ? "Whittle" : fmt::format("{} – Whittle", o.scene.file.filename().string());
   window.isLight = o.isLight;
+  window.uiScale = o.uiScale;
   window.print = [](const std::string& line) { tell(line + "\n"); };
   window.writeCodes = [](const fs::path& file, int width, int height,
                          const std::vector<std::uint8_t>& codes) {
@@ -243,6 +245,13 @@ void addView(CLI::App& app, int& status) {
   addDeviceOptions(*c, o->settings);
   c->option_defaults()->group("Window");
   c->add_flag("--light", o->isLight, "dark letters on a light ground [off]");
+  addText(*c, "--ui-scale",
+          [&scale = o->uiScale](const std::string& word) {
+            scale = parseRealOrAuto("--ui-scale", word, view::kLeastUiScale, view::kLargestUiScale);
+          },
+          {"auto|S",
+           "size of letters and panels, 0.5 to 4: 2 is twice as large; in the window Ctrl and +, - or 0",
+           "auto: as the monitor is set, else larger from 1200 rows on"});
   addFile(*c, "--script", o->script, "FILE",
           "keys, mouse, settings, screenshots and expectations, a command a line: host/view/README.md");
   addFile(*c, "--compare", o->reference, "FILE",

@@ -16,12 +16,16 @@
 #include "view/edit_model.h"
 #include "view/live_render.h"
 #include "view/ray_drawing.h"
+#include "view/ray_shares.h"
 
 namespace whittle::view {
 
 /// Switches the comparison of explained rays with the double-precision reference, as ViewModel::set does the
 /// settings; no control.
 inline constexpr const char* kReferenceSwitch = "with-reference";
+
+/// An orthographic view of so many metres, likewise.
+inline constexpr const char* kHeightSetting = "ortho-height";
 
 /// One setting as a widget: its value is text, as on the command line.
 struct Control {
@@ -121,6 +125,9 @@ class ViewModel {
   virtual void chooseCamera(std::size_t index) = 0;
   virtual double fieldOfView() const = 0;  ///< vertical, degrees
   virtual void setFieldOfView(double degrees) = 0;
+  /// Metres of the scene from the picture's lower edge to its upper one; none: the view is in perspective.
+  virtual std::optional<double> orthographicHeight() const = 0;
+  virtual void setOrthographicHeight(double metres) = 0;
   /// As options of the command line, and back; a message says what is wrong with them.
   virtual std::string cameraText() const = 0;
   virtual void pasteCamera(const std::string& text) = 0;
@@ -130,6 +137,7 @@ class ViewModel {
   struct Explained {
     int x = 0, y = 0;  ///< the pixel
     RayTree tree;
+    RayShares shares;
     std::vector<std::string> titles;          ///< of each ray
     std::vector<std::vector<RayLine>> lines;  ///< and all there is to say of it
     std::vector<DrawnRay> drawn;

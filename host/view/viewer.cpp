@@ -305,6 +305,7 @@ std::string Viewer::value(const std::string& id) const {
 std::string Viewer::set(const std::string& id, const std::string& text) {
   if (id == kLayerControl) return showLayer(text);
   if (id == kReferenceSwitch) return switchReference(text);
+  if (id == kHeightSetting) return setHeight(text);
   if (SceneEditor::isId(id)) return editor_.set(id, text);
   if (Comparison::has(id)) return comparison_.set(id, text);
   Settings changed = settings_;
@@ -378,6 +379,7 @@ std::string Viewer::stateJson() const {
                    {"materials", p.work.tables.materials ? 1 : 0},
                    {"triangles", p.work.tables.triangles ? 1 : 0},
                    {"options", optionsText()},
+                   {"camera", cameraText()},
                    {"explainedRays", explained_ ? explained_->tree.rays.size() : 0},
                    {"isCompared", explained_ && !explained_->verdict.empty()},
                    {"parts", explained_ && explained_->parts}};

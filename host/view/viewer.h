@@ -93,6 +93,8 @@ class Viewer : public ViewModel {
   void chooseCamera(std::size_t index) override;
   double fieldOfView() const override;
   void setFieldOfView(double degrees) override;
+  std::optional<double> orthographicHeight() const override;
+  void setOrthographicHeight(double metres) override;
   std::string cameraText() const override;
   void pasteCamera(const std::string& text) override;
   void setMoving(bool isMoving) override;
@@ -154,6 +156,7 @@ class Viewer : public ViewModel {
   void lookAtFile();
   std::string showLayer(const std::string& layer);
   std::string switchReference(const std::string& text);
+  std::string setHeight(const std::string& text);
 
   Services services_;
   Settings settings_;

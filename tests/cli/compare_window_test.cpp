@@ -113,6 +113,21 @@ TEST_F(CompareWindowTest, ThePictureIsNowhereFromItself) {
   EXPECT_EQ(lit, 0U);
 }
 
+/// Who switches it on and off sees the same pixel at the same place.
+TEST_F(CompareWindowTest, TheScaleOfTheDifferenceMovesNothing) {
+  const std::string places = std::string(kPlace) + "print window.pictureHeight\n";
+  for (const char* size : {"1280 720", "1280 420"}) {  // room below the picture, and none
+    const Outcome run =
+        play(fmt::format("resize {}\nwait refined\nwait 0.2\n{}key k\nset bounces 1\nset compare difference\n"
+                         "wait compared\nwait 0.2\nscreenshot difference.png\n{}",
+                         size, places, places),
+             small());
+    ASSERT_EQ(run.status, 0) << run.err;
+    const std::size_t half = run.out.size() / 2;
+    EXPECT_EQ(run.out.substr(0, half), run.out.substr(half)) << run.out;
+  }
+}
+
 TEST_F(CompareWindowTest, TheLineIsDraggedAndTheCameraStays) {
   expectPlayed(
       "wait refined\nkey k\nwait compared\nexpect compare.split == 0.5\ndrag 80 45 40 45\nexpect "

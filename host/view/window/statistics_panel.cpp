@@ -21,7 +21,15 @@ void row(const char* label, const std::string& value) {
 
 namespace {
 
-/// Time of each stage as a bar of the longest.
+/// What it does, and how fast.
+void tipOf(const StageStats& s) {
+  const double rate = s.seconds > 0 ? static_cast<double>(s.items) / s.seconds / 1e6 : 0.0;
+  ImGui::SetTooltip("%s", fmt::format("{}: {}\n{} launches, {} {}, {:.4g} M/s", s.facts.file, s.facts.label,
+                                      s.launches, formatInteger(s.items), s.facts.unit, rate)
+                              .c_str());
+}
+
+/// Time of each stage, before a bar of its share of the longest.
 void stageBars(const Stats& stats) {
   double most = 0, all = 0;
   for (const auto& s : stats.stages) most = std::max(most, s.seconds), all += s.seconds;
@@ -34,13 +42,11 @@ void stageBars(const Stats& stats) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
     const auto share = static_cast<float>(s->seconds / most);
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + height + 1},
-                                              {at.x + width * share, at.y + height + 4}, kSeries[0]);
+    constexpr ImU32 kFaint = (kSeries[0] & ~IM_COL32_A_MASK) | (90U << IM_COL32_A_SHIFT);
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y - 1}, {at.x + width * share, at.y + height + 2},
+                                              kFaint);
     row(s->facts.name, fmt::format("{:.1f} ms  {:.0f} %", 1000 * s->seconds, 100 * s->seconds / all));
-    if (ImGui::IsItemHovered())
-      tip(fmt::format("{} launches, {} {}, {:.4g} M/s", s->launches, formatInteger(s->items), s->facts.unit,
-                      s->seconds > 0 ? static_cast<double>(s->items) / s->seconds / 1e6 : 0.0));
-    ImGui::Dummy({0, 3});
+    if (ImGui::IsMouseHoveringRect(at, {at.x + width, at.y + height}) && ImGui::IsWindowHovered()) tipOf(*s);
   }
 }
 
@@ -49,14 +55,18 @@ void errorPlot(const Stats& stats) {
   std::vector<ErrorPoint> points;
   for (const auto& p : stats.error)
     if (p.estimate > 0 && p.seconds > 0) points.push_back(p);
-  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight() * 7;
+  // As high as there is room above the headings that follow.
+  constexpr float kLeastLines = 4, kMostLines = 7;
+  const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
+  const float room = ImGui::GetContentRegionAvail().y - 2 * ImGui::GetFrameHeightWithSpacing();
+  const float height = std::clamp(room, kLeastLines * line, kMostLines * line);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Dummy({width, height});
   ImDrawList* const draw = ImGui::GetWindowDrawList();
-  const ImU32 line = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   draw->AddRect(at, {at.x + width, at.y + height}, ImGui::GetColorU32(ImGuiCol_Border));
   if (points.size() < 2) {
-    draw->AddText({at.x + 6, at.y + 4}, line, "from the second pass on");
+    draw->AddText({at.x + 6, at.y + 4}, ink, "from the second pass on");
     return;
   }
   double x0 = std::log10(points.front().seconds), x1 = std::log10(points.back().seconds);
@@ -75,15 +85,15 @@ void errorPlot(const Stats& stats) {
   for (double s = x0; s < x1; s += (x1 - x0) / 24) {  // dashes of slope -1/2
     const double a = std::pow(10, s), b = std::pow(10, s + (x1 - x0) / 48);
     draw->AddLine(place(a, first.estimate * std::sqrt(first.seconds / a)),
-                  place(b, first.estimate * std::sqrt(first.seconds / b)), line);
+                  place(b, first.estimate * std::sqrt(first.seconds / b)), ink);
   }
   for (std::size_t i = 1; i < points.size(); ++i)
     draw->AddLine(place(points[i - 1].seconds, points[i - 1].estimate),
                   place(points[i].seconds, points[i].estimate), kSeries[1], 2);
   for (const auto& p : points) draw->AddCircleFilled(place(p.seconds, p.estimate), 3, kSeries[1]);
   draw->PopClipRect();
-  draw->AddText({at.x + 6, at.y + 2}, line, fmt::format("{:.3g}", std::pow(10, y1)).c_str());
-  draw->AddText({at.x + 6, at.y + height - ImGui::GetTextLineHeight() - 2}, line,
+  draw->AddText({at.x + 6, at.y + 2}, ink, fmt::format("{:.3g}", std::pow(10, y1)).c_str());
+  draw->AddText({at.x + 6, at.y + height - line - 2}, ink,
                 fmt::format("{:.3g} W/(m² sr)   {:.3g} s … {:.3g} s", std::pow(10, y0), std::pow(10, x0),
                             std::pow(10, x1))
                     .c_str());

@@ -92,9 +92,11 @@ TEST_F(WindowPanelsTest, ATargetIsReached) {
       picture);
 }
 
+/// In 720 rows, also below the figures of a comparison; and nobody must scroll to see the rest.
 TEST_F(WindowPanelsTest, TheErrorPlotFitsBelowTheStages) {
   expectPlayed(
-      "wait refined\nwait 0.2\nexpect stats.error.1.raysPerPixel > 1\nexpect window.statisticsCut == 0\n",
+      "wait refined\nwait 0.2\nexpect stats.error.1.raysPerPixel > 1\nexpect window.statisticsCut == 0\n"
+      "key k\nset compare difference\nwait compared\nwait 0.2\nexpect window.statisticsCut == 0\n",
       {"--width", "160", "--height", "90", "--rays-per-pixel", "16"}, scene("textured.glb"));
 }
 

@@ -287,7 +287,12 @@ void cameraPanel(ViewModel& model) {
   if (ImGui::Button("copy")) ImGui::SetClipboardText(model.cameraText().c_str());
   tip(fmt::format("as options of the command line: {}", model.cameraText()));
   ImGui::SameLine();
+  if (ImGui::Button("paste"))
+    if (const char* const text = ImGui::GetClipboardText()) model.pasteCamera(text);
+  tip("a camera from such options");
+  ImGui::SameLine();
   if (ImGui::Button("reset")) model.resetCamera();
+  tip("the camera of the file");
   ImGui::SameLine();
   if (ImGui::Button("frame all")) model.frameAll();
 }

@@ -12,7 +12,7 @@ inline constexpr const char* kScaleSetting = "ui-scale";
 
 /// What the first monitor says of itself.
 struct MonitorFacts {
-  float scale = 1;  ///< that its user has set; 1: none is known
+  float scale = 1;  ///< that its user has set; 1: this, or none is known
   int width = 1 << 14, height = 1 << 14;
 };
 /// GLFW must run.

@@ -21,15 +21,38 @@ void row(const char* label, const std::string& value) {
 
 namespace {
 
+/// Of the plot below the stages, in lines of text.
+constexpr float kLeastPlot = 4, kMostPlot = 7;
+
 /// What it does, and how fast.
-void tipOf(const StageStats& s) {
+std::string tipOf(const StageStats& s) {
   const double rate = s.seconds > 0 ? static_cast<double>(s.items) / s.seconds / 1e6 : 0.0;
-  ImGui::SetTooltip("%s", fmt::format("{}: {}\n{} launches, {} {}, {:.4g} M/s", s.facts.file, s.facts.label,
-                                      s.launches, formatInteger(s.items), s.facts.unit, rate)
-                              .c_str());
+  return fmt::format("{}: {}\n{} launches, {} {}, {:.4g} M/s", s.facts.file, s.facts.label, s.launches,
+                     formatInteger(s.items), s.facts.unit, rate);
 }
 
-/// Time of each stage, before a bar of its share of the longest.
+/// So many rows leave room for the plot and the headings that follow; some are there in any case.
+std::size_t stageRows() {
+  constexpr float kLeastRows = 6;
+  const float below = 3 * ImGui::GetFrameHeightWithSpacing() + (kLeastPlot + 1) * ImGui::GetTextLineHeight();
+  const float fit = (ImGui::GetContentRegionAvail().y - below) / ImGui::GetTextLineHeightWithSpacing();
+  return static_cast<std::size_t>(std::max(fit, kLeastRows));
+}
+
+/// Time before a bar of its share of the longest.
+void stageRow(const std::string& name, double seconds, double most, double all, const std::string& more) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
+  const auto share = static_cast<float>(seconds / most);
+  constexpr ImU32 kFaint = (kSeries[0] & ~IM_COL32_A_MASK) | (90U << IM_COL32_A_SHIFT);
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y - 1}, {at.x + width * share, at.y + height + 2},
+                                            kFaint);
+  row(name.c_str(), fmt::format("{:.1f} ms  {:.0f} %", 1000 * seconds, 100 * seconds / all));
+  if (ImGui::IsMouseHoveringRect(at, {at.x + width, at.y + height}) && ImGui::IsWindowHovered())
+    ImGui::SetTooltip("%s", more.c_str());
+}
+
+/// Time of each stage, the longest first; where there is no room, of the last ones together.
 void stageBars(const Stats& stats) {
   double most = 0, all = 0;
   for (const auto& s : stats.stages) most = std::max(most, s.seconds), all += s.seconds;
@@ -38,16 +61,19 @@ void stageBars(const Stats& stats) {
   for (const auto& s : stats.stages) stages.push_back(&s);
   std::stable_sort(stages.begin(), stages.end(),
                    [](const StageStats* a, const StageStats* b) { return a->seconds > b->seconds; });
-  for (const StageStats* s : stages) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
-    const auto share = static_cast<float>(s->seconds / most);
-    constexpr ImU32 kFaint = (kSeries[0] & ~IM_COL32_A_MASK) | (90U << IM_COL32_A_SHIFT);
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y - 1}, {at.x + width * share, at.y + height + 2},
-                                              kFaint);
-    row(s->facts.name, fmt::format("{:.1f} ms  {:.0f} %", 1000 * s->seconds, 100 * s->seconds / all));
-    if (ImGui::IsMouseHoveringRect(at, {at.x + width, at.y + height}) && ImGui::IsWindowHovered()) tipOf(*s);
+  const std::size_t rows = stageRows(), alone = stages.size() <= rows ? stages.size() : rows - 1;
+  double rest = 0;
+  std::string names;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const StageStats& s = *stages[i];
+    if (i < alone) {
+      stageRow(s.facts.name, s.seconds, most, all, tipOf(s));
+      continue;
+    }
+    rest += s.seconds;
+    names += fmt::format("{}{}  {:.1f} ms", names.empty() ? "" : "\n", s.facts.name, 1000 * s.seconds);
   }
+  if (!names.empty()) stageRow(fmt::format("{} more", stages.size() - alone), rest, most, all, names);
 }
 
 /// Estimated error against time, both logarithmic, with what a random sampler's would fall like.
@@ -56,10 +82,9 @@ void errorPlot(const Stats& stats) {
   for (const auto& p : stats.error)
     if (p.estimate > 0 && p.seconds > 0) points.push_back(p);
   // As high as there is room above the headings that follow.
-  constexpr float kLeastLines = 4, kMostLines = 7;
   const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
   const float room = ImGui::GetContentRegionAvail().y - 2 * ImGui::GetFrameHeightWithSpacing();
-  const float height = std::clamp(room, kLeastLines * line, kMostLines * line);
+  const float height = std::clamp(room, kLeastPlot * line, kMostPlot * line);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Dummy({width, height});
   ImDrawList* const draw = ImGui::GetWindowDrawList();

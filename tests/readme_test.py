@@ -146,6 +146,19 @@ class Links(unittest.TestCase):
                     if anchor and file.suffix == ".md":
                         self.assertIn(anchor, anchorsOf(file), "no such heading")
 
+    def test_stages_have_one_name(self):
+        """The front page and host/README.md call stages as the profile and the window do."""
+        names = set(re.findall(r'Stage stage\{\s*\{"(\w+)"', (ROOT / "host/wavefront/stages.h").read_text()))
+        self.assertIn("raygen", names)
+        for page, head in ((ROOT / "README.md", "| stage | in words | what"), (ROOT / "host/README.md", "| stage | in words | reads")):
+            rows = page.read_text().split(head)[1].split("\n\n")[0].splitlines()[2:]
+            told = {name for row in rows for name in re.findall(r"[a-z_]+…?", row.split("|")[1].split("](")[0])}
+            whole = {name for name in told if not name.endswith("…")}
+            starts = tuple(name[:-1] for name in told - whole)
+            self.assertLessEqual(whole, names, page)
+            lost = {name for name in names - whole if not name.startswith(starts)}
+            self.assertLessEqual(lost, {"find_long_runs"}, page)
+
     def test_a_lost_link_shows(self):
         with tempfile.TemporaryDirectory() as folder:
             page = pathlib.Path(folder) / "page.md"

@@ -97,9 +97,8 @@ void noteShortRows(const BenchResult& r) {
   const auto count = static_cast<std::size_t>(std::count_if(r.rows.begin(), r.rows.end(), isShort));
   if (count > 0)
     note(
-        fmt::format("{} of {} rows have so few rays that launching a kernel ({:.0f} µs) takes a fifth of "
-                    "their time "
-                    "or more; --rays asks for more",
+        fmt::format("{} of {} rows have so few rays that launching a kernel ({:.0f} µs) takes a fifth "
+                    "of their time or more; --rays asks for more",
                     count, r.rows.size(), r.launchSeconds * 1e6));
 }
 

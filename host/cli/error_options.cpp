@@ -48,9 +48,9 @@ void addErrorOptions(CLI::App& c, Settings& s) {
           "stop rendering after this; every pixel gets one ray, however long that takes; without "
           "--rays-per-pixel as many as fit",
           "0: none");
-  c.add_flag(
-      "--adaptive", s.adaptive,
-      fmt::format("more rays where the estimated error is largest, beyond {} for each pixel", kPilotSamples));
+  c.add_flag("--adaptive,!--no-adaptive", s.adaptive,
+             fmt::format("more rays where the estimated error is largest, beyond {} for each pixel [off]",
+                         kPilotSamples));
 }
 
 void settleRaysPerPixel(const CLI::App& command, Settings& s) {
@@ -63,6 +63,12 @@ void settleRaysPerPixel(const CLI::App& command, Settings& s) {
   if (s.sampler == Sampler::Stratified)
     throw InputError("--sampler: stratified divides each pixel by --rays-per-pixel, which is not given");
   s.raysPerPixel = kUntilStopped;
+}
+
+void followTarget(Settings& s, int usual) {
+  const bool isEnded = hasErrorTarget(s) || s.timeLimit > 0.0;
+  if (isEnded && s.raysPerPixel == usual && s.sampler != Sampler::Stratified) s.raysPerPixel = kUntilStopped;
+  if (!isEnded && s.raysPerPixel == kUntilStopped) s.raysPerPixel = usual;
 }
 
 std::vector<std::string> uselessAdaptive(const Settings& s) {

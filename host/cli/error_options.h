@@ -16,6 +16,10 @@ void addErrorOptions(CLI::App& command, Settings& settings);
 /// nothing says how many, or the sampler must know.
 void settleRaysPerPixel(const CLI::App& command, Settings& settings);
 
+/// The same where a hand switches target and limit on and off: as many as it takes in the place of the
+/// `usual` number, and back; any other number stays.
+void followTarget(Settings& settings, int usual);
+
 /// A line where --adaptive has nothing to give out.
 std::vector<std::string> uselessAdaptive(const Settings& settings);
 

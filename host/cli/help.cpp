@@ -24,12 +24,10 @@ std::string nameOf(const CLI::Option& option) {
 }
 
 std::string line(const std::string& name, const std::string& text, std::size_t textColumn) {
-  const std::string head = padded("  " + name, textColumn);
-  const std::string body = wrapped(text, kColumns - textColumn, textColumn);
+  const std::string head = "  " + name, body = wrapped(text, kColumns - textColumn, textColumn);
   // At least two blanks between a name and its text, or the text goes below.
-  if (columnsOf("  " + name) + 2 > textColumn)
-    return head + "\n" + std::string(textColumn, ' ') + body + "\n";
-  return head + body + "\n";
+  if (columnsOf(head) + 2 > textColumn) return head + "\n" + std::string(textColumn, ' ') + body + "\n";
+  return padded(head, textColumn) + body + "\n";
 }
 
 /// Where the texts start: right of the widest name, within reason.

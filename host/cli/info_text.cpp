@@ -69,9 +69,8 @@ std::string cameraText(const Camera& c, const Places& places) {
   const std::string lens =
       c.orthographic ? fmt::format("orthographic, {} m high", formatReal(2.0 * static_cast<double>(c.ymag)))
                      : fmt::format("perspective, {:.1f}° high", static_cast<double>(c.yfov) * kDegrees);
-  const std::string again = viewpointText(c, places.origin());
-  return fmt::format("{}, at {} m, looking {}{}", lens, places(c.position), vectorText(c.forward),
-                     again.empty() ? "" : "; " + again);
+  return fmt::format("{}, at {} m, looking {}; {}", lens, places(c.position), vectorText(c.forward),
+                     viewpointText(c, places.origin()));
 }
 
 std::string lightText(const Light& l, const Places& places) {

@@ -31,6 +31,8 @@ namespace {
 /// Of --memory-limit: whoever asks for less has left out the unit.
 constexpr std::uint64_t kLeastLimit = 1'000'000;
 constexpr double kLongestTime = 1e6;  // seconds
+/// Surfaces smoother than this look like mirrors, glossy or not.
+constexpr float kGlossyMirrorRoughness = 0.03F;
 
 }  // namespace
 
@@ -58,12 +60,11 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
            "as the file says"});
   c.add_flag_callback(
       "--default-lights", [&o] { o.defaultLights = true; },
-      "light a file that has neither lights nor a background like a studio [where something "
-      "would be dark]");
+      "light a file that has neither lights nor a background like a studio [where something would be dark]");
   c.add_flag_callback(
-      "--no-default-lights", [&o] { o.defaultLights = false; }, "or never");
+      "--no-default-lights", [&o] { o.defaultLights = false; }, "never do so");
   c.add_flag("--default-background,!--no-default-background", o.defaultBackground,
-             "and put the studio's surroundings there, for smooth surfaces to mirror [on]");
+             "with those lights, surroundings of a studio for smooth surfaces to mirror [on]");
   c.add_flag(
       "--confine", o.confined,
       "refuse a file that reads buffers or images outside its own folder; otherwise a note says so [off]");
@@ -96,10 +97,8 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
           },
           {"X,Y,W,H",
            "trace only this region, from the picture's top left, in pixels, or in shares of its width and "
-           "height with "
-           "a decimal point or %: 25%,25%,50%,50%. Its pixels have the bits of the whole picture; files have "
-           "its size, "
-           "an .exr its place; error, statistics and memory are its own",
+           "height with a decimal point or %: 25%,25%,50%,50%. Its pixels have the bits of the whole "
+           "picture; files have its size, an .exr its place; error, statistics and memory are its own",
            "none"});
   addText(c, "--pixel",
           [&o](const std::string& word) {
@@ -135,9 +134,8 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
   c.add_flag(
       "--alpha", s.alpha,
       "give .png (colours not multiplied by it), .exr (multiplied) and --aov all an alpha channel: the "
-      "background "
-      "is left out where it is seen straight on, and out of what --exposure auto looks at; mirrors and solid "
-      "glass still show it [off]");
+      "background is left out where it is seen straight on, and out of what --exposure auto looks at; "
+      "mirrors and solid glass still show it [off]");
   c.add_flag("--clip-far", s.clipFar,
              "show nothing beyond the camera's zfar; many tools write one that means nothing [off]");
   o.ambient = addText(
@@ -165,10 +163,9 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
           },
           {"auto|METRES", "focus on this distance along the camera's axis", "auto: what the middle shows"})
       ->excludes(o.focusPixel);
-  c.add_flag(
-      "--glossy,!--no-glossy", s.glossy,
-      "rough surfaces reflect and refract what is around them, blurred, from several rays per pixel on; "
-      "--mirror-roughness is 0.03 then unless it is given [off]");
+  c.add_flag("--glossy,!--no-glossy", s.glossy,
+             "rough surfaces reflect and refract what is around them, blurred, from several rays per pixel "
+             "on [off]");
   c.add_flag(
       "--area-lights,!--no-area-lights", s.areaLights,
       "surfaces that glow light others, from several rays per pixel on; the scene gets no lights of ours "
@@ -183,9 +180,9 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
   addChoice(c, "--impulses", s.impulses, "follow both branches of a surface, or one chosen at random");
   addReal(c, "--ray-offset,--bump", s.rayOffset, 0, 1e30, "METRES",
           "distance of a ray's origin from its surface", "from the rounding error of each hit");
-  o.mirrorRoughness =
-      addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R",
-              "surfaces smoother than this are mirrors", fmt::format("{}", s.mirrorRoughness));
+  o.mirrorRoughness = addReal(c, "--mirror-roughness", s.mirrorRoughness, 0, 1, "R",
+                              "surfaces smoother than this are mirrors",
+                              fmt::format("{}; {} with --glossy", s.mirrorRoughness, kGlossyMirrorRoughness));
 }
 
 void addDeviceOptions(CLI::App& c, Settings& s) {
@@ -210,9 +207,16 @@ void addDeviceOptions(CLI::App& c, Settings& s) {
           [&s](const std::string& v) { s.keepFeatures = parseFeatureNames("--keep-features", v); },
           {"LIST",
            "compile and run these and what they need, whatever the scene needs: names as `whittle info` has "
-           "them, with "
-           "commas",
+           "them, with commas",
            ""});
+}
+
+float standardMirrorRoughness(const Settings& settings) {
+  return settings.glossy ? kGlossyMirrorRoughness : Settings{}.mirrorRoughness;
+}
+
+void settleMirrorRoughness(const SceneOptions& options, Settings& settings) {
+  if (!given(options.mirrorRoughness)) settings.mirrorRoughness = standardMirrorRoughness(settings);
 }
 
 std::vector<std::string> uselessOptions(const Settings& settings) {
@@ -249,9 +253,6 @@ void promisePicture(MemoryBudget& budget, const CommandCosts& costs, const Setti
 }
 
 namespace {
-
-/// Surfaces smoother than this look like mirrors, glossy or not.
-constexpr float kGlossyMirrorRoughness = 0.03F;
 
 /// What a lens is focused on, where nobody gives a distance.
 void settleFocus(const SceneOptions& options, const Scene& scene, Settings& settings, Notices& notices) {
@@ -312,7 +313,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
                              *settings.ambient));
   }
   settleFocus(options, scene, settings, notices);
-  if (settings.glossy && !given(options.mirrorRoughness)) settings.mirrorRoughness = kGlossyMirrorRoughness;
+  settleMirrorRoughness(options, settings);
   nowDoing("");
   if (options.isAgain) return scene;
   for (const auto& text : notices.warnings) warn(text);

@@ -43,6 +43,12 @@ void addPictureOptions(CLI::App& command, Settings& settings, SceneOptions& scen
 /// Settings of the device path alone.
 void addDeviceOptions(CLI::App& command, Settings& settings);
 
+/// The default of --mirror-roughness: rough surfaces that reflect by themselves need no mirrors in their
+/// place.
+float standardMirrorRoughness(const Settings& settings);
+/// Takes that default, unless the command line has the option.
+void settleMirrorRoughness(const SceneOptions& options, Settings& settings);
+
 /// A line for each option that changes nothing, with the reason.
 std::vector<std::string> uselessOptions(const Settings& settings);
 

@@ -29,6 +29,8 @@ struct Row {
 constexpr std::array kRows{
     Row{"rays-per-pixel", "Picture", "rays per pixel", Kind::Whole},
     Row{"target-error", "Picture", "until the error is", Kind::Text},
+    Row{"time-limit", "Picture", "for at most, s", Kind::Real},
+    Row{"adaptive", "Picture", "adaptive", Kind::Switch},
     Row{"width", "Picture", "width", Kind::Whole},
     Row{"height", "Picture", "height", Kind::Whole},
     Row{"crop", "Picture", "region", Kind::Text},
@@ -136,15 +138,23 @@ void setSetting(Settings& settings, const std::string& id, const std::string& te
   }
   if (options.scene.crop)
     options.settings.crop = regionOf(*options.scene.crop, options.settings.width, options.settings.height);
+  // A default follows what decides it; a value by hand stays.
+  if (id == "glossy" && settings.mirrorRoughness == standardMirrorRoughness(settings))
+    options.settings.mirrorRoughness = standardMirrorRoughness(options.settings);
   settings = options.settings;
 }
 
+std::string standardText(const Settings& standard, const Settings& settings, const std::string& id) {
+  Settings now = standard;
+  if (id == "mirror-roughness") now.mirrorRoughness = standardMirrorRoughness(settings);
+  return settingText(now, id);
+}
+
 std::string optionsText(const Settings& settings) {
-  const Settings standard;
   std::string text;
   for (const Row& row : kRows) {
     const std::string value = settingText(settings, row.id);
-    if (value == settingText(standard, row.id)) continue;
+    if (value == standardText({}, settings, row.id)) continue;
     const bool hasBlanks = value.find(' ') != std::string::npos;
     if (!text.empty()) text += ' ';
     if (row.kind == Kind::Switch)

@@ -19,6 +19,10 @@ std::vector<view::Control> settingControls(const Settings& standard, const Devic
 /// that is no control.
 std::string settingText(const Settings& settings, const std::string& id);
 
+/// The default of a control beside these settings, which decide some: --glossy that of --mirror-roughness.
+/// `standard`: the others.
+std::string standardText(const Settings& standard, const Settings& settings, const std::string& id);
+
 /// Throws InputError, with the settings as they were.
 void setSetting(Settings& settings, const std::string& id, const std::string& text);
 

@@ -36,6 +36,7 @@ struct ViewOptions {
   Settings settings;
   fs::path script, kernelFolder, reference;
   bool isLight = false;
+  std::optional<float> uiScale;
 };
 
 view::Script readScript(const fs::path& file) {
@@ -179,8 +180,14 @@ int runView(ViewOptions& o) {
   Settings standard;
   standard.raysPerPixel = kRaysPerPixel;
   services.controls = settingControls(standard, listDevices());
+  services.standard = [standard](const Settings& settings, const std::string& id) {
+    return standardText(standard, settings, id);
+  };
   services.value = settingText;
-  services.set = setSetting;
+  services.set = [](Settings& settings, const std::string& id, const std::string& text) {
+    setSetting(settings, id, text);
+    if (id == "target-error" || id == "time-limit") followTarget(settings, kRaysPerPixel);
+  };
   services.load = [sources](const fs::path& file, Settings& settings, std::vector<std::string>& notes) {
     return sources->load(file, settings, notes);
   };
@@ -203,6 +210,7 @@ int runView(ViewOptions& o) {
   services.wake = [&library] { library.wake(); };
   services.compiler = "/proc/self/exe";
   if (!o.kernelFolder.empty()) services.kernelFolder = o.kernelFolder;
+  settleMirrorRoughness(o.scene, o.settings);
   view::Viewer viewer(std::move(services), o.settings, o.scene.file);
 
   if (!o.reference.empty()) viewer.set("reference", o.reference.string());
@@ -211,6 +219,7 @@ int runView(ViewOptions& o) {
   window.title =
       o.scene.file.empty() ? "Whittle" : fmt::format("{} – Whittle", o.scene.file.filename().string());
   window.isLight = o.isLight;
+  window.uiScale = o.uiScale;
   window.print = [](const std::string& line) { tell(line + "\n"); };
   window.writeCodes = [](const fs::path& file, int width, int height,
                          const std::vector<std::uint8_t>& codes) {
@@ -236,12 +245,18 @@ void addView(CLI::App& app, int& status) {
   addDeviceOptions(*c, o->settings);
   c->option_defaults()->group("Window");
   c->add_flag("--light", o->isLight, "dark letters on a light ground [off]");
+  addText(*c, "--ui-scale",
+          [&scale = o->uiScale](const std::string& word) {
+            scale = parseRealOrAuto("--ui-scale", word, view::kLeastUiScale, view::kLargestUiScale);
+          },
+          {"auto|S",
+           "size of letters and panels, 0.5 to 4: 2 is twice as large; in the window Ctrl and +, - or 0",
+           "auto: as the monitor is set, else larger from 1200 rows on"});
   addFile(*c, "--script", o->script, "FILE",
           "keys, mouse, settings, screenshots and expectations, a command a line: host/view/README.md");
   addFile(*c, "--compare", o->reference, "FILE",
           "show a reference of the picture's size beside it, split by a line: an .exr or .hdr (radiance), or "
-          "a .png "
-          "or .jpg (codes)");
+          "a .png or .jpg (codes)");
   addFile(*c, "--kernels", o->kernelFolder, "FOLDER",
           "read kernels from here, not from the program (for developers)");
   c->footer("Example: whittle view scenes/cornell_box.glb\nH in the window shows its keys.");

@@ -16,7 +16,7 @@ namespace whittle::cli {
 namespace {
 
 constexpr double kToDegrees = 180.0 / std::numbers::pi;
-constexpr double kFarthest = 1e18;  // metres
+constexpr double kFarthest = 1e18, kLeastHeight = 1e-9;  // metres
 
 /// Numbers with commas between them, `least` to `most` of them.
 std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t least,
@@ -70,6 +70,10 @@ void addViewpointOptions(CLI::App& c, ViewpointOptions& o, CLI::Option* camera) 
   o.fov = addText(c, "--fov",
                   [&v](const std::string& t) { v.yfov = parseReal("--fov", t, 0.001, 179) / kToDegrees; },
                   {"DEGREES", "vertical field of view of --eye and --orbit", "40.1"});
+  o.orthoHeight = addText(
+      c, "--ortho-height",
+      [&v](const std::string& t) { v.orthoHeight = parseReal("--ortho-height", t, kLeastHeight, kFarthest); },
+      {"METRES", "instead of --fov: an orthographic view, so high from edge to edge", "perspective"});
   o.orbit = addText(c, "--orbit",
                     [&v](const std::string& t) {
                       const auto n = parseNumbers("--orbit", t, 2, 3);
@@ -89,23 +93,27 @@ std::optional<Viewpoint> chosenViewpoint(const ViewpointOptions& o) {
   if (eye && orbit) throw InputError("--eye and --orbit: give one of the two");
   if ((eye || orbit) && given(o.camera))
     throw InputError(fmt::format("--camera and {}: give one of the two", eye ? "--eye" : "--orbit"));
+  if (given(o.fov) && given(o.orthoHeight)) throw InputError("--fov and --ortho-height: give one of the two");
   if (!eye && given(o.lookAt)) throw InputError("--look-at: needs --eye");
   if (!eye && !orbit)
-    for (const CLI::Option* option : {o.up, o.fov})
+    for (const CLI::Option* option : {o.up, o.fov, o.orthoHeight})
       if (given(option)) throw InputError(fmt::format("{}: needs --eye or --orbit", option->get_name()));
   if (!eye && !orbit) return std::nullopt;
   return o.viewpoint;
 }
 
 std::string viewpointText(const Camera& c, const glm::dvec3& origin) {
-  if (c.orthographic) return "";
   // Far from the file's origin it takes more digits: read back and brought to the scene's origin, the eye
   // must round to the same floats, and what it looks at, a metre away, must be nearer than they can tell.
   const glm::dvec3 place(c.position), eye = place + origin;
   const glm::dvec3 offEye = 0.25 * kFloatRounding * glm::abs(place), offTarget(0.1 * kFloatRounding);
-  return fmt::format("--eye {} --look-at {} --up {} --fov {:.7g}", pointText(eye, offEye),
+  const double height = 2.0 * static_cast<double>(c.ymag);
+  const std::string lens = c.orthographic
+                               ? "--ortho-height " + numberText(height, 0.25 * kFloatRounding * height)
+                               : fmt::format("--fov {:.7g}", static_cast<double>(c.yfov) * kToDegrees);
+  return fmt::format("--eye {} --look-at {} --up {} {}", pointText(eye, offEye),
                      pointText(eye + glm::dvec3(c.forward), offTarget),
-                     pointText(glm::dvec3(c.up), offTarget), static_cast<double>(c.yfov) * kToDegrees);
+                     pointText(glm::dvec3(c.up), offTarget), lens);
 }
 
 }  // namespace whittle::cli

@@ -1,4 +1,4 @@
-// A camera by hand: --eye, --look-at, --up, --fov and --orbit.
+// A camera by hand: --eye, --look-at, --up, --fov or --ortho-height, and --orbit.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,7 @@ namespace whittle::cli {
 struct ViewpointOptions {
   Viewpoint viewpoint;
   CLI::Option *camera = nullptr, *eye = nullptr, *lookAt = nullptr, *up = nullptr, *fov = nullptr,
-              *orbit = nullptr;
+              *orthoHeight = nullptr, *orbit = nullptr;
 };
 
 /// Adds the options. `camera`: the one that chooses among the file's cameras.
@@ -21,7 +21,7 @@ void addViewpointOptions(CLI::App& command, ViewpointOptions& options, CLI::Opti
 /// The viewpoint, where one was asked for. Throws InputError for options that need or exclude another.
 std::optional<Viewpoint> chosenViewpoint(const ViewpointOptions& options);
 
-/// The options that make this camera again, for `info`; empty for an orthographic one.
+/// The options that make this camera again, for `info` and the window.
 std::string viewpointText(const Camera& camera, const glm::dvec3& origin);
 
 }  // namespace whittle::cli

@@ -21,6 +21,19 @@ namespace {
 
 constexpr const char* kLightsExtension = "KHR_lights_punctual";
 
+/// The unit vector whose components round to those of `v`, a unit vector that was rounded: brought to unit
+/// length `v` itself may round elsewhere. Each component goes the same share of its last place.
+glm::dvec3 unitThatRoundsTo(const glm::vec3& v) {
+  const glm::dvec3 rounded(v);
+  glm::dvec3 lastPlace(0.0);  // half of it, away from 0
+  for (int i = 0; i < 3; ++i) {
+    const float next = std::nextafter(v[i], std::copysign(2.0F, v[i]));
+    if (v[i] != 0.0F) lastPlace[i] = 0.5 * (static_cast<double>(next) - rounded[i]);
+  }
+  const double share = (1.0 - glm::dot(rounded, rounded)) / (2.0 * glm::dot(rounded, lastPlace));
+  return rounded + std::clamp(share, -1.0, 1.0) * lastPlace;
+}
+
 /// Keys keep their order.
 using Ordered = nlohmann::ordered_json;
 
@@ -104,7 +117,8 @@ class Editor {
     if (before.intensity != after.intensity) writeIntensity(after, ownLight(node));
     if (before.innerConeAngle != after.innerConeAngle || before.outerConeAngle != after.outerConeAngle)
       writeCone(after, ownLight(node));
-    if (before.position != after.position) moveLight(node, after);
+    if (before.position != after.position || before.direction != after.direction)
+      placeLight(node, before, after);
   }
 
   /// The light of this node alone: one that several nodes have is copied.
@@ -158,30 +172,50 @@ class Editor {
     return glm::dmat4(1.0);
   }
 
-  /// Moves its node, or where others would go along, hangs it on a new first child: lights are in the order
-  /// of the nodes, depth first.
-  void moveLight(std::size_t node, const Light& light) {
-    const bool alone = isAlone(node);
-    const glm::dmat4 frame = alone ? parentToWorld(node) : hierarchy_.toWorld[node];
-    const glm::dvec4 local = glm::inverse(frame) * glm::dvec4(placeInFile(light), 1.0);
-    const glm::dvec3 place(local);
-    if (!std::isfinite(place.x + place.y + place.z))
-      document_.fail(fmt::format("{} cannot be moved: it lies below a scale of 0",
-                                 nodeLabel(document_, static_cast<int>(node))));
-    Ordered& json = root_["nodes"][node];
-    if (!alone) return moveToChild(node, place);
-    if (Ordered& matrix = json["matrix"]; matrix.is_array() && matrix.size() == 16) {
-      for (std::size_t i = 0; i < 3; ++i) matrix[12 + i] = place[static_cast<int>(i)];
-    } else {
-      json.erase("matrix");
-      json["translation"] = listOf(place);
-    }
+  /// An animation that turns it could not turn a matrix (glTF 2.0, 3.5.3).
+  bool isAnimated(std::size_t node) const {
+    const Ordered none = Ordered::array();
+    for (const Ordered& animation : root_.value("animations", none))
+      for (const Ordered& channel : animation.value("channels", none))
+        if (channel.value("target", Ordered::object()).value("node", -1) == static_cast<int>(node))
+          return true;
+    return false;
   }
 
-  void moveToChild(std::size_t node, const glm::dvec3& place) {
-    Ordered child = Ordered::object();
+  /// Moves and turns its node, or where others would go along, hangs it on a new first child: lights are in
+  /// the order of the nodes, depth first.
+  void placeLight(std::size_t node, const Light& before, const Light& after) {
+    const bool moves = before.position != after.position, turns = before.direction != after.direction;
+    const bool alone = isAlone(node) && !(turns && isAnimated(node));
+    const glm::dmat4 frame = alone ? parentToWorld(node) : hierarchy_.toWorld[node];
+    const glm::dmat4 toFrame = glm::inverse(frame);
+    const glm::dmat4* const local = document_.nodes[node].local.get();
+    glm::dvec3 place(alone && local ? (*local)[3] : glm::dvec4(0, 0, 0, 1));
+    if (moves) place = glm::dvec3(toFrame * glm::dvec4(placeInFile(after), 1.0));
+    const glm::dvec3 z = -(glm::dmat3(toFrame) * unitThatRoundsTo(after.direction));
+    if (!std::isfinite(place.x + place.y + place.z) || (turns && !(glm::length(z) > 0.0)))
+      document_.fail(fmt::format("{} cannot be moved or turned: it lies below a scale of 0",
+                                 nodeLabel(document_, static_cast<int>(node))));
+    Ordered transform = Ordered::object();
+    if (turns)
+      transform["matrix"] = matrixOf(z, place);
+    else
+      transform["translation"] = listOf(place);
+    Ordered& json = root_["nodes"][node];
+    if (!alone) return moveToChild(node, std::move(transform));
+    if (Ordered& matrix = json["matrix"]; !turns && matrix.is_array() && matrix.size() == 16) {
+      for (std::size_t i = 0; i < 3; ++i) matrix[12 + i] = place[static_cast<int>(i)];
+      return;
+    }
+    json.erase("matrix");
+    if (turns)
+      for (const char* key : {"translation", "rotation", "scale"}) json.erase(key);
+    json.update(transform);
+  }
+
+  /// `child`: its transform.
+  void moveToChild(std::size_t node, Ordered child) {
     if (!document_.nodes[node].name.empty()) child["name"] = document_.nodes[node].name;
-    child["translation"] = listOf(place);
     child["extensions"][kLightsExtension]["light"] = document_.nodes[node].light;
     if (!document_.nodes[node].castsShadows()) child["extras"]["castsShadows"] = false;
     const std::size_t index = root_["nodes"].size();
@@ -193,6 +227,18 @@ class Editor {
     root_["nodes"].push_back(std::move(child));
   }
 
+  /// With this +Z, which keeps its bits: a light shines along -Z, and a rotation would round it.
+  static Ordered matrixOf(const glm::dvec3& z, const glm::dvec3& place) {
+    const glm::dvec3 unit = glm::normalize(z);
+    const glm::dvec3 aside = std::abs(unit.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 x = glm::normalize(glm::cross(aside, unit)), y = glm::cross(unit, x);
+    Ordered matrix = Ordered::array();
+    for (const glm::dvec4& column :
+         {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(place, 1)})
+      for (int i = 0; i < 4; ++i) matrix.push_back(column[i]);
+    return matrix;
+  }
+
   /// A node of its own among the scene's roots, with the light's direction as its -Z.
   void addLight(const Light& light) {
     use(kLightsExtension);
@@ -201,14 +247,8 @@ class Editor {
     writeIntensity(light, definition);
     if (type.hasCone) writeCone(light, definition);
     if (!light.castsShadows) definition["extras"]["castsShadows"] = false;
-    const glm::dvec3 z = -glm::normalize(glm::dvec3(light.direction));
-    const glm::dvec3 aside = std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 x = glm::normalize(glm::cross(aside, z)), y = glm::cross(z, x);
     const glm::dvec3 place = type.isPlaced ? placeInFile(light) : glm::dvec3(0.0);
-    Ordered matrix = Ordered::array();
-    for (const glm::dvec4& column :
-         {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(place, 1)})
-      for (int i = 0; i < 4; ++i) matrix.push_back(column[i]);
+    const Ordered matrix = matrixOf(-unitThatRoundsTo(light.direction), place);
     Ordered node{{"name", light.name}, {"matrix", matrix}};
     node["extensions"][kLightsExtension]["light"] = lights().size();
     lights().push_back(std::move(definition));

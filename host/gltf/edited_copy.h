@@ -19,7 +19,8 @@ struct EditedScene {
   const Appearance& after;
 };
 
-/// Read again, the copy has the lights and materials of `after` bit for bit. Lights that are not of the file
+/// Read again, the copy has the lights and materials of `after` bit for bit, but for a direction's 0
+/// below a turned parent, which may become 1e-16. Lights that are not of the file
 /// are added to it, all of them, once one of them was edited. `copy`: empty for a name beside the file. A
 /// name that is taken gets a number; .glb and .gltf stay what they are. Returns the name. Throws InputError,
 /// also where nothing was edited, and UnwritableFile; then nothing is left behind.

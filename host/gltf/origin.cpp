@@ -110,9 +110,8 @@ void warnOfCoarsePositions(const Document& document, const Hierarchy& hierarchy,
   }
   if (others < 0) return;
   notices.warn(fmt::format(
-      "the positions of meshes[{}]{} lie up to {:.0f} m from the mesh's own origin: single precision keeps "
-      "them to "
-      "{:.3g} m there, {:.2g} % of the mesh's size{}",
+      "the positions of meshes[{}]{} lie up to {:.0f} m from the mesh's own origin: single precision "
+      "keeps them to {:.3g} m there, {:.2g} % of the mesh's size{}",
       worst.mesh, quotedName(document.model.meshes[at(worst.mesh)].name), worst.farthest, worst.step,
       100.0 * worst.share(), others > 0 ? fmt::format(" ({} more like it)", others) : ""));
 }

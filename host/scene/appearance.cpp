@@ -10,7 +10,10 @@ namespace {
 
 /// The numbers that can be edited, once: of a constant thing to be read, else to be written.
 auto numbersOf(auto& light) requires requires { light.outerConeAngle; }
-{ return std::tie(light.intensity, light.position, light.innerConeAngle, light.outerConeAngle); }
+{
+  return std::tie(light.intensity, light.position, light.direction, light.innerConeAngle,
+                  light.outerConeAngle);
+}
 auto numbersOf(auto& material) requires requires { material.roughness; }
 {
   return std::tie(material.baseColor, material.metallic, material.roughness, material.transmission,

@@ -18,8 +18,8 @@ struct Appearance {
 
 Appearance appearanceOf(const Scene& scene);
 
-/// Writes intensity, position and cone of lights, factors of materials, radiance and rotation of the
-/// background. Everything else stays as it is, so that another thread may read that meanwhile.
+/// Writes intensity, position, direction and cone of lights, factors of materials, radiance and rotation of
+/// the background. Everything else stays as it is, so that another thread may read that meanwhile.
 void setAppearance(const Appearance& appearance, Scene& scene);
 
 /// Whether the two differ in what setAppearance writes.

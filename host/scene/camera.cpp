@@ -171,6 +171,17 @@ Camera framingCamera(const Scene& scene, double aspect) {
   return camera;
 }
 
+namespace {
+
+void setLens(const Viewpoint& from, double yfov, Camera& camera) {
+  camera.yfov = static_cast<float>(yfov);
+  if (!from.orthoHeight) return;
+  camera.orthographic = true;
+  camera.ymag = static_cast<float>(0.5 * *from.orthoHeight);
+}
+
+}  // namespace
+
 Camera cameraAt(const Scene& scene, const Viewpoint& from, double aspect) {
   const double yfov = from.yfov.value_or(kYfov);
   Camera camera;
@@ -182,6 +193,7 @@ Camera cameraAt(const Scene& scene, const Viewpoint& from, double aspect) {
     const glm::dvec3 up = steep ? towardsEye(azimuth, 0.0) * (elevation > 0.0 ? -1.0 : 1.0) : from.up;
     camera = orbiting(scene, azimuth, elevation, from.distance, yfov, up, aspect);
     camera.name = "orbit";
+    setLens(from, yfov, camera);
     return camera;
   }
   const Bounds box = boundsOf(scene);
@@ -193,7 +205,7 @@ Camera cameraAt(const Scene& scene, const Viewpoint& from, double aspect) {
   if (!(glm::length(glm::cross(forward, from.up)) > 1e-9 * glm::length(from.up)))
     throw InputError("--up: runs along the view; give another, for instance 0,0,-1");
   camera.name = "eye";
-  camera.yfov = static_cast<float>(yfov);
+  setLens(from, yfov, camera);
   place(camera, eye, forward, from.up);
   return camera;
 }

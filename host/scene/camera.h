@@ -36,6 +36,8 @@ struct Viewpoint {
   std::optional<glm::dvec3> eye, lookAt;  ///< metres; without lookAt: the scene's middle
   glm::dvec3 up{0, 1, 0};
   std::optional<double> yfov;  ///< radians; without: that of the added camera
+  /// Orthographic, and so many metres of the scene from the picture's lower edge to its upper one.
+  std::optional<double> orthoHeight;
   /// Degrees: azimuth from +Z towards +X, elevation. Distance in metres from the middle; without: so that the
   /// scene fills the picture.
   std::optional<glm::dvec2> orbit;

@@ -47,8 +47,7 @@ std::vector<Control> Comparison::controls() {
   std::vector<Control> all{
       control("reference", "reference", Control::Kind::Text, "",
               "an .exr or .hdr (radiance), or a .png or .jpg (codes), of the picture's size; Shift and drop, "
-              "or K for "
-              "the picture that is shown; empty: none"),
+              "or K for the picture that is shown; empty: none"),
       control(
           "compare", "show", Control::Kind::Choice, "off",
           "split: the picture left of the line, the reference right of it; flip: the reference in its place; "

@@ -12,7 +12,8 @@ namespace {
 constexpr glm::dvec3 kUp{0, 1, 0};
 /// Radians from the poles, where "up" has no meaning.
 constexpr double kPole = 1e-3;
-constexpr double kLeastView = 0.02, kLargestView = 3.0;  // radians
+constexpr double kLeastView = 0.02, kLargestView = 3.0;       // radians
+constexpr double kLeastHeight = 1e-9, kLargestHeight = 1e18;  // metres
 
 glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -84,6 +85,10 @@ void HandCamera::fly(double right, double up, double ahead) {
 
 void HandCamera::setFieldOfView(double radians) {
   camera_.yfov = static_cast<float>(std::clamp(radians, kLeastView, kLargestView));
+}
+
+void HandCamera::setOrthographicHeight(double metres) {
+  camera_.ymag = static_cast<float>(std::clamp(metres, kLeastHeight, kLargestHeight) / 2);
 }
 
 void HandCamera::switchOrthographic() {

@@ -17,6 +17,8 @@ class HandCamera {
   /// The point keeps its distance along the view.
   void setPivot(const glm::dvec3& pivot) { pivot_ = pivot; }
   void setFieldOfView(double radians);
+  /// Metres that an orthographic picture shows from edge to edge.
+  void setOrthographicHeight(double metres);
 
   /// Radians about the world's up and the camera's right, as if a hand turned the scene; never over the
   /// poles. The pivot keeps its place in the picture.

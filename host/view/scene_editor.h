@@ -10,22 +10,10 @@
 
 #include "scene/appearance.h"
 #include "view/edit_model.h"
+#include "view/edited_light.h"
 #include "view/view_model.h"
 
 namespace whittle::view {
-
-/// A light as a hand turns its knobs: off, its intensity is kept.
-struct EditedLight {
-  explicit EditedLight(const Light& light);
-  Light asLight(const Light& ofFile) const;
-
-  bool isOn = true;
-  double intensity = 0.0;  ///< the largest channel's
-  glm::dvec3 color{1.0};   ///< linear
-  glm::vec3 position;
-  double innerConeAngle, outerConeAngle;  ///< radians
-  bool operator==(const EditedLight&) const = default;
-};
 
 class SceneEditor : public EditModel {
  public:

@@ -16,6 +16,7 @@
 #include "view/edit_model.h"
 #include "view/live_render.h"
 #include "view/ray_drawing.h"
+#include "view/ray_shares.h"
 
 namespace whittle::view {
 
@@ -23,10 +24,14 @@ namespace whittle::view {
 /// settings; no control.
 inline constexpr const char* kReferenceSwitch = "with-reference";
 
+/// An orthographic view of so many metres, likewise.
+inline constexpr const char* kHeightSetting = "ortho-height";
+
 /// One setting as a widget: its value is text, as on the command line.
 struct Control {
-  /// Share: from 0 to 1. Amount: a number, more likely to be changed by a part of it. Color: three shares.
-  enum class Kind : std::uint8_t { Switch, Whole, Real, Choice, Text, Share, Amount, Color };
+  /// Share: from 0 to 1. Amount: a number, more likely to be changed by a part of it. Angle: degrees. Color:
+  /// three shares.
+  enum class Kind : std::uint8_t { Switch, Whole, Real, Choice, Text, Share, Amount, Angle, Color };
 
   std::string id;  ///< its option without the hyphens in front: "rays-per-pixel"
   std::string group, label, unit;
@@ -120,6 +125,9 @@ class ViewModel {
   virtual void chooseCamera(std::size_t index) = 0;
   virtual double fieldOfView() const = 0;  ///< vertical, degrees
   virtual void setFieldOfView(double degrees) = 0;
+  /// Metres of the scene from the picture's lower edge to its upper one; none: the view is in perspective.
+  virtual std::optional<double> orthographicHeight() const = 0;
+  virtual void setOrthographicHeight(double metres) = 0;
   /// As options of the command line, and back; a message says what is wrong with them.
   virtual std::string cameraText() const = 0;
   virtual void pasteCamera(const std::string& text) = 0;
@@ -129,6 +137,7 @@ class ViewModel {
   struct Explained {
     int x = 0, y = 0;  ///< the pixel
     RayTree tree;
+    RayShares shares;
     std::vector<std::string> titles;          ///< of each ray
     std::vector<std::vector<RayLine>> lines;  ///< and all there is to say of it
     std::vector<DrawnRay> drawn;
@@ -154,7 +163,7 @@ class ViewModel {
   virtual void open(const std::filesystem::path& file) = 0;
   virtual void reload() = 0;
   /// Writes what is shown as .png and .exr, called after the scene, where the program was started; a message
-  /// says where.
+  /// says where. With a region that alone is written, as `whittle render --crop` does, and its name says so.
   virtual void save() = 0;
   virtual void stop() = 0;
   /// Statistics and state as JSON text, for scripts: stats.…, view.….

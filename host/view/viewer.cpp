@@ -56,7 +56,13 @@ Viewer::Viewer(Services services, const Settings& settings, const std::filesyste
   const auto afterPicture = std::find_if(services_.controls.begin(), services_.controls.end(),
                                          [](const Control& c) { return c.group != "Picture"; });
   services_.controls.insert(afterPicture, comparing.begin(), comparing.end());
+  renewStandards();
   if (!file.empty()) load(file, false);
+}
+
+void Viewer::renewStandards() {
+  for (Control& c : services_.controls)
+    if (c.id != kLayerControl && !Comparison::has(c.id)) c.standard = services_.standard(settings_, c.id);
 }
 
 void Viewer::say(bool isError, std::string text) {
@@ -299,6 +305,7 @@ std::string Viewer::value(const std::string& id) const {
 std::string Viewer::set(const std::string& id, const std::string& text) {
   if (id == kLayerControl) return showLayer(text);
   if (id == kReferenceSwitch) return switchReference(text);
+  if (id == kHeightSetting) return setHeight(text);
   if (SceneEditor::isId(id)) return editor_.set(id, text);
   if (Comparison::has(id)) return comparison_.set(id, text);
   Settings changed = settings_;
@@ -309,6 +316,7 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
   }
   if (changed.width != settings_.width || changed.height != settings_.height) changed.crop.reset();
   settings_ = changed;
+  renewStandards();
   if (isOfCodes(id))
     makeCodes();
   else if (isOfBackground(id))
@@ -339,9 +347,14 @@ void Viewer::open(const std::filesystem::path& file) { load(file, false); }
 void Viewer::reload() { load({}, true); }
 
 void Viewer::save() {
-  if (!whole_ || !scene_) return say(true, "there is no picture yet");
+  if (!whole_ || !scene_ || shown_.coarse) return say(true, "there is no picture yet");
+  // Around a region the picture is of other settings, or of none.
+  const bool isRegion = shown_.asked.crop.has_value();
+  std::string name = file_.stem().string();
+  if (isRegion) name += "-crop-" + services_.value(shown_.asked, "crop");
   try {
-    say(false, services_.save(file_.stem(), *whole_, *scene_, settings_));
+    const std::string wrote = services_.save(name, isRegion ? *shown_.result : *whole_, *scene_, settings_);
+    say(false, isRegion ? wrote + ": the region alone" : wrote);
   } catch (const std::exception& e) {
     say(true, e.what());
   }
@@ -366,6 +379,7 @@ std::string Viewer::stateJson() const {
                    {"materials", p.work.tables.materials ? 1 : 0},
                    {"triangles", p.work.tables.triangles ? 1 : 0},
                    {"options", optionsText()},
+                   {"camera", cameraText()},
                    {"explainedRays", explained_ ? explained_->tree.rays.size() : 0},
                    {"isCompared", explained_ && !explained_->verdict.empty()},
                    {"parts", explained_ && explained_->parts}};

@@ -25,6 +25,8 @@ inline constexpr const char* kLayerControl = "show";
 /// What the command line knows and the model does not. All but `load` are called by the window's thread.
 struct Services {
   std::vector<Control> controls;
+  /// The default of a control, which another setting may decide.
+  std::function<std::string(const Settings&, const std::string& id)> standard;
   /// The value of a control as text.
   std::function<std::string(const Settings&, const std::string& id)> value;
   /// Throws InputError, with the settings as before.
@@ -91,6 +93,8 @@ class Viewer : public ViewModel {
   void chooseCamera(std::size_t index) override;
   double fieldOfView() const override;
   void setFieldOfView(double degrees) override;
+  std::optional<double> orthographicHeight() const override;
+  void setOrthographicHeight(double metres) override;
   std::string cameraText() const override;
   void pasteCamera(const std::string& text) override;
   void setMoving(bool isMoving) override;
@@ -135,6 +139,7 @@ class Viewer : public ViewModel {
   void deliver(const Followed& followed);
   static Explained explainedOf(Followed followed);
   void ask(bool coarseFirst = false);
+  void renewStandards();  ///< of the controls
   SceneEditor::Owner owner();
   /// Lights, materials or the background were.
   void edited();
@@ -151,6 +156,7 @@ class Viewer : public ViewModel {
   void lookAtFile();
   std::string showLayer(const std::string& layer);
   std::string switchReference(const std::string& text);
+  std::string setHeight(const std::string& text);
 
   Services services_;
   Settings settings_;

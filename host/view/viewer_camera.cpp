@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "analysis/focus.h"
@@ -93,6 +94,26 @@ double Viewer::fieldOfView() const { return static_cast<double>(camera_.camera()
 void Viewer::setFieldOfView(double degrees) {
   camera_.setFieldOfView(degrees / kDegrees);
   cameraMoved();
+}
+
+std::optional<double> Viewer::orthographicHeight() const {
+  const Camera& camera = camera_.camera();
+  return camera.orthographic ? std::optional(2.0 * static_cast<double>(camera.ymag)) : std::nullopt;
+}
+
+void Viewer::setOrthographicHeight(double metres) {
+  camera_.setOrthographicHeight(metres);
+  cameraMoved();
+}
+
+std::string Viewer::setHeight(const std::string& text) {
+  char* end = nullptr;
+  const double metres = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || !(metres > 0.0) || !std::isfinite(metres))
+    return fmt::format("{}: '{}' is no height in metres", kHeightSetting, text);
+  if (!orthographicHeight()) switchOrthographic();
+  setOrthographicHeight(metres);
+  return {};
 }
 
 std::string Viewer::cameraText() const {

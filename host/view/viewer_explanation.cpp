@@ -1,11 +1,11 @@
 // The rays of a pixel: asked of the render's thread, and put into words.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "reference/reference.h"
 #include "render/explanation.h"
+#include "report/text.h"
 #include "view/viewer.h"
 
 namespace whittle::view {
@@ -55,18 +55,16 @@ ViewModel::Explained Viewer::explainedOf(Followed f) {
     e.verdict = verdict(e.tree, *beside, scene);
     e.parts = comparison->parting.has_value();
   }
-  const auto brightness = [](const glm::dvec3& c) { return std::max({0.0, c.x, c.y, c.z}); };
-  const double all = brightness(sumOf(e.tree));
+  e.shares = sharesOf(e.tree);
   for (std::size_t i = 0; i < e.tree.rays.size(); ++i) {
-    const double share = all > 0 ? brightness(shareOf(e.tree.rays[i])) / all : 0.0;
-    e.titles.push_back(fmt::format("{}, adds {:.0f} %", rayTitle(e.tree, i, scene), 100 * share));
+    e.titles.push_back(rayTitle(e.tree, i, scene));
     e.lines.push_back(rayLines(e.tree, i, scene, beside ? &*beside : nullptr));
   }
   e.drawn = drawnRays(e.tree, scene, f.request.camera, static_cast<double>(settings.width) / settings.height);
   const glm::dvec3 sum = sumOf(e.tree);
   e.sum = fmt::format(
-      "sum of {} rays: {:.6g} {:.6g} {:.6g}; the {} has {:.6g} {:.6g} {:.6g}", e.tree.rays.size(), sum.x,
-      sum.y, sum.z,
+      "sum of {}: {:.6g} {:.6g} {:.6g}; the {} has {:.6g} {:.6g} {:.6g}",
+      formatSome(e.tree.rays.size(), "ray", "rays"), sum.x, sum.y, sum.z,
       settings.raysPerPixel > 1 ? fmt::format("first of {} samples", settings.raysPerPixel) : "pixel",
       e.tree.radiance.x, e.tree.radiance.y, e.tree.radiance.z);
   return e;

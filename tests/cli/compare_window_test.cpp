@@ -1,4 +1,5 @@
 // A reference and a region in the window: what is seen, code for code, and what is traced.
+#include "image/image_io.h"
 #include "window_fixture.h"
 
 namespace whittle::test {
@@ -112,6 +113,21 @@ TEST_F(CompareWindowTest, ThePictureIsNowhereFromItself) {
   EXPECT_EQ(lit, 0U);
 }
 
+/// Who switches it on and off sees the same pixel at the same place.
+TEST_F(CompareWindowTest, TheScaleOfTheDifferenceMovesNothing) {
+  const std::string places = std::string(kPlace) + "print window.pictureHeight\n";
+  for (const char* size : {"1280 720", "1280 420"}) {  // room below the picture, and none
+    const Outcome run =
+        play(fmt::format("resize {}\nwait refined\nwait 0.2\n{}key k\nset bounces 1\nset compare difference\n"
+                         "wait compared\nwait 0.2\nscreenshot difference.png\n{}",
+                         size, places, places),
+             small());
+    ASSERT_EQ(run.status, 0) << run.err;
+    const std::size_t half = run.out.size() / 2;
+    EXPECT_EQ(run.out.substr(0, half), run.out.substr(half)) << run.out;
+  }
+}
+
 TEST_F(CompareWindowTest, TheLineIsDraggedAndTheCameraStays) {
   expectPlayed(
       "wait refined\nkey k\nwait compared\nexpect compare.split == 0.5\ndrag 80 45 40 45\nexpect "
@@ -168,6 +184,24 @@ TEST_F(CompareWindowTest, OnlyARegionIsRenderedAnew) {
     }
   EXPECT_EQ(wrongInside, 0U);
   EXPECT_EQ(wrongOutside, 0U);
+}
+
+/// As `render --crop` writes it, though what surrounds it was rendered with other settings.
+TEST_F(CompareWindowTest, ARegionIsSavedAlone) {
+  expectPlayed(
+      "wait refined\nset bounces 1\nwait refined\nkey Ctrl+B\ndrag 40.5 20.5 99.5 59.5\nset bounces 3\n"
+      "wait refined\nkey Ctrl+S\nwait 0.2\n",
+      small());
+  renderTo("crop", {"--crop", "40,20,60,40"});
+  const std::string saved = "cornell_box-crop-40,20,60,40-001";
+  ASSERT_EQ(read("crop.png").width, 60);
+  EXPECT_EQ(read(saved + ".png").bytes, read("crop.png").bytes);
+  const FloatImage is = readFloatImage(folder_ / (saved + ".exr")),
+                   wanted = readFloatImage(folder_ / "crop.exr");
+  EXPECT_EQ(is.pixels, wanted.pixels);
+  EXPECT_EQ(is.frame.x, 40);
+  EXPECT_EQ(is.frame.y, wanted.frame.y);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "cornell_box-001.png"));
 }
 
 }  // namespace

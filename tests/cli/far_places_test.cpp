@@ -77,5 +77,26 @@ TEST(FarPlaces, PastedOptionsAreTheSameCamera) {
     EXPECT_NEAR(again["cameras"][0]["forward"][axis].get<double>(), forward[axis], 2e-7);
 }
 
+/// Without perspective the height is given back to the float.
+TEST(FarPlaces, PastedOptionsAreTheSameOrthographicCamera) {
+  const Folder folder;
+  const std::string file = writeFarScene(folder).string();
+  const std::vector<std::string> view{file, "--orbit", "20,10", "--ortho-height", "7.3"};
+  std::vector<std::string> info{"info"};
+  info.insert(info.end(), view.begin(), view.end());
+  const std::string text = unwrapped(runWhittle(info).out);
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(
+      text, found, std::regex("--eye (\\S+) --look-at (\\S+) --up (\\S+) --ortho-height ([0-9.]+)")))
+      << text;
+  const Json before = infoJsonOf(view)["cameras"][0];
+  const Json again = infoJsonOf({file, "--eye=" + found[1].str(), "--look-at=" + found[2].str(),
+                                 "--up=" + found[3].str(), "--ortho-height=" + found[4].str()})["cameras"][0];
+  EXPECT_TRUE(again["orthographic"].get<bool>());
+  EXPECT_EQ(again["ymag"], before["ymag"]);
+  EXPECT_NEAR(before["ymag"].get<double>(), 3.65, 1e-6) << "half of what is seen";
+  EXPECT_EQ(again["position"], before["position"]);
+}
+
 }  // namespace
 }  // namespace whittle::test

@@ -29,7 +29,10 @@ TEST_P(Help, FitsATerminalAndSpeaksThisProgramsWords) {
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.err, "");
   std::istringstream in(run.out);
-  for (std::string line; std::getline(in, line);) EXPECT_LE(columnsOf(line), 80U) << line;
+  for (std::string line; std::getline(in, line);) {
+    EXPECT_LE(columnsOf(line), 80U) << line;
+    EXPECT_FALSE(line.ends_with(' ')) << line;
+  }
   for (const char* noise : {"REQUIRED", "TEXT", "INT", "FLOAT", "UINT", "Needs", "{", ":NONNEGATIVE"})
     EXPECT_EQ(run.out.find(noise), std::string::npos) << noise << " in:\n" << run.out;
   EXPECT_NE(run.out.find("Example: whittle "), std::string::npos);

@@ -47,6 +47,22 @@ TEST(SettingControls, DevicesAreChosenByNumberSinceNamesMayBeAlike) {
   EXPECT_EQ(device->captions[2], "2  same name, platform");
 }
 
+/// Rough surfaces that reflect by themselves need no mirrors in their place: 0.03 instead of 0.2.
+TEST(SettingControls, GlossyDecidesWhatCountsAsAMirrorUnlessAHandDid) {
+  Settings settings;
+  cli::setSetting(settings, "glossy", "on");
+  EXPECT_EQ(cli::settingText(settings, "mirror-roughness"), "0.03");
+  EXPECT_EQ(cli::standardText({}, settings, "mirror-roughness"), "0.03");
+  EXPECT_EQ(cli::optionsText(settings), "--glossy") << "render settles the other itself";
+  cli::setSetting(settings, "mirror-roughness", "0.2");
+  EXPECT_EQ(cli::optionsText(settings), "--glossy --mirror-roughness 0.2");
+  cli::setSetting(settings, "glossy", "off");
+  EXPECT_EQ(cli::settingText(settings, "mirror-roughness"), "0.2");
+  cli::setSetting(settings, "mirror-roughness", "0.1");
+  cli::setSetting(settings, "glossy", "on");
+  EXPECT_EQ(cli::settingText(settings, "mirror-roughness"), "0.1");
+}
+
 TEST(SettingControls, WhatIsRefusedChangesNothing) {
   Settings settings;
   settings.bounces = 5;

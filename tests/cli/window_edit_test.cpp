@@ -32,6 +32,21 @@ TEST_F(WindowEditTest, WhatIsSavedIsRenderedAsItWasShown) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "copy-2.glb"));
 }
 
+/// Where lights shine, and how much a pane covers.
+TEST_F(WindowEditTest, DirectionsAndAlphaAreSavedAsTheyWereShown) {
+  const auto expectSaved = [&](const std::string& name, const std::string& edits) {
+    const std::string file = scene(name + ".glb");
+    expectPlayed(
+        "wait refined\n" + edits + "wait refined\nkey Ctrl+S\nwait 0.2\nsave-scene " + name + "-copy.glb\n",
+        kSmall, file);
+    const Codes window = read(name + "-001.png");
+    EXPECT_EQ(window.bytes, rendered(name + "-copy.glb").bytes) << name;
+    EXPECT_NE(window.bytes, rendered(file).bytes) << name;
+  };
+  expectSaved("spot_cone", "set light.0.elevation -80\nset light.1.azimuth 70\nset light.2.elevation -90\n");
+  expectSaved("textured", "set material.3.alpha 0.9\nset material.4.alpha 0\n");
+}
+
 TEST_F(WindowEditTest, WhatChangesIsUploadedAndNoMore) {
   expectPlayed(
       "wait refined\nset light.0.intensity 2\nwait refined\nexpect view.lights == 1\nexpect view.scene == 0\n"

@@ -1,4 +1,6 @@
 // `whittle view` in a real window: scripts drive it as hands would.
+#include <fmt/ranges.h>
+
 #include <chrono>
 #include <thread>
 
@@ -7,25 +9,32 @@
 namespace whittle::test {
 namespace {
 
+/// With options that decide each other, as --glossy does the roughness of mirrors, and with larger letters.
 TEST_F(WindowTest, StandingStillItIsThePictureOfRender) {
-  const Outcome run = play(
-      "wait refined\nscreenshot window.png\nprint window.pictureX\nprint window.pictureY\n"
-      "print window.pictureWidth\nquit\n");
-  ASSERT_EQ(run.status, 0) << run.err;
-  std::vector<std::string> args{"render", scene("cornell_box.glb"), "-o", "render.png", "--quiet"};
-  args.insert(args.end(), kSmall.begin(), kSmall.end());
-  ASSERT_EQ(runWhittle(args, {folder_.path(), {}}).status, 0);
-  const Codes window = read("window.png"), picture = read("render.png");
-  const int x0 = static_cast<int>(printed(run, "window.pictureX")),
-            y0 = static_cast<int>(printed(run, "window.pictureY"));
-  const int scale = static_cast<int>(printed(run, "window.pictureWidth")) / picture.width;
-  ASSERT_GE(scale, 1);
-  std::size_t different = 0;
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x)
-      for (int k = 0; k < scale; ++k)
-        different += picture.at(x, y) != window.at(x0 + x * scale + k, y0 + y * scale + k);
-  EXPECT_EQ(different, 0U) << "of " << picture.width * picture.height;
+  using Words = std::vector<std::string>;
+  for (const Words& more : {Words{}, Words{"--glossy"}, Words{"--area-lights"}}) {
+    Words view = kSmall, args{"render", scene("cornell_box.glb"), "-o", "render.png", "--quiet"};
+    view.insert(view.end(), more.begin(), more.end());
+    args.insert(args.end(), view.begin(), view.end());
+    view.insert(view.end(), {"--ui-scale", "1.25"});
+    const Outcome run = play(
+        "wait refined\nscreenshot window.png\nprint window.pictureX\nprint window.pictureY\n"
+        "print window.pictureWidth\nquit\n",
+        view);
+    ASSERT_EQ(run.status, 0) << run.err;
+    ASSERT_EQ(runWhittle(args, {folder_.path(), {}}).status, 0);
+    const Codes window = read("window.png"), picture = read("render.png");
+    const int x0 = static_cast<int>(printed(run, "window.pictureX")),
+              y0 = static_cast<int>(printed(run, "window.pictureY"));
+    const int scale = static_cast<int>(printed(run, "window.pictureWidth")) / picture.width;
+    ASSERT_GE(scale, 1);
+    std::size_t different = 0;
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x)
+        for (int k = 0; k < scale; ++k)
+          different += picture.at(x, y) != window.at(x0 + x * scale + k, y0 + y * scale + k);
+    EXPECT_EQ(different, 0U) << fmt::format("{}", fmt::join(more, " "));
+  }
 }
 
 TEST_F(WindowTest, EverySettingGoesThroughTheCommandLinesChecks) {

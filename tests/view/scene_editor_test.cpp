@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -154,14 +155,55 @@ TEST_F(SceneEditorTest, ControlsFitTheKindOfLight) {
     for (const auto& c : editor.controls(Part::Light, i)) fields.push_back(c.id.substr(c.id.rfind('.') + 1));
     return fields;
   };
-  EXPECT_EQ(ids(0),
-            (std::vector<std::string>{"on", "intensity", "color", "inner-cone", "outer-cone", "position"}));
-  EXPECT_EQ(ids(1), (std::vector<std::string>{"on", "intensity", "color"}));
+  EXPECT_EQ(ids(0), (std::vector<std::string>{"on", "intensity", "color", "azimuth", "elevation",
+                                              "inner-cone", "outer-cone", "position"}));
+  EXPECT_EQ(ids(1), (std::vector<std::string>{"on", "intensity", "color", "azimuth", "elevation"}));
+  EXPECT_EQ(ids(2), (std::vector<std::string>{"on", "intensity", "color", "position"}));
   EXPECT_EQ(editor.controls(Part::Light, 0)[1].label, "intensity, cd");
   EXPECT_EQ(editor.controls(Part::Light, 1)[1].label, "intensity, lx");
   EXPECT_EQ(editor.title(Part::Light, 1), "1 sün");
   EXPECT_EQ(editor.title(Part::Material, 1), "1");
   EXPECT_TRUE(editor.controls(Part::Light, 9).empty());
+}
+
+TEST_F(SceneEditorTest, ADirectionIsTwoAngles) {
+  const auto expectDirection = [&](const glm::vec3& wanted) {
+    EXPECT_LT(glm::length(light(0).direction - wanted), 1e-7F) << "a float's rounding";
+  };
+  EXPECT_EQ(editor.value("light.0.azimuth"), "180") << "along -Z";
+  EXPECT_EQ(editor.value("light.0.elevation"), "0");
+  EXPECT_EQ(editor.set("light.0.azimuth", "90"), "");
+  expectDirection({1, 0, 0});
+  EXPECT_EQ(editor.set("light.0.elevation", "30"), "");
+  expectDirection({std::sqrt(0.75F), 0.5F, 0});
+  EXPECT_EQ(editor.set("light.0.elevation", "-90"), "");
+  EXPECT_EQ(light(0).direction, glm::vec3(0, -1, 0)) << "straight down, exactly";
+  EXPECT_EQ(editor.set("light.0.elevation", "0"), "");
+  expectDirection({1, 0, 0});
+  EXPECT_EQ(editor.value("light.0.azimuth"), "90") << "straight down, it was not forgotten";
+  EXPECT_EQ(editor.set("light.0.azimuth", "180"), "");
+  EXPECT_EQ(light(0).direction, editable().lights[0].direction);
+  EXPECT_FALSE(editor.isEdited(Part::Light, 0));
+  EXPECT_EQ(editor.set("light.0.elevation", "91"), "light 0: an elevation outside -90° to 90°");
+}
+
+TEST_F(SceneEditorTest, AlphaIsOfWhatBlendsOrIsCutOut) {
+  const auto hasAlpha = [&](std::size_t i) {
+    const auto all = editor.controls(Part::Material, i);
+    return std::any_of(all.begin(), all.end(), [](const auto& c) { return c.id.ends_with(".alpha"); });
+  };
+  Scene scene = editable();
+  scene.materials[1].alphaMode = AlphaMode::Blend;
+  scene.materials[1].baseColor = {0.5F, 0.25F, 1, 0.75F};
+  editor.take(scene, false);
+  EXPECT_FALSE(hasAlpha(0)) << "opaque: it would change nothing";
+  EXPECT_TRUE(hasAlpha(1));
+  EXPECT_EQ(editor.value("material.1.alpha"), "0.75");
+  EXPECT_EQ(editor.set("material.1.alpha", "0.5"), "");
+  EXPECT_EQ(material(1).baseColor, glm::vec4(0.5F, 0.25F, 1, 0.5F));
+  EXPECT_EQ(editor.set("material.1.base-color", "1,1,1"), "");
+  EXPECT_EQ(material(1).baseColor.a, 0.5F);
+  EXPECT_EQ(editor.set("material.1.alpha", "1.5"), "material 1: a factor is outside its range");
 }
 
 /// At 2 m the picture is 4 m high and 8 m wide.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "view/window/panels.h"
+#include "view/window/style.h"
 
 namespace whittle::view {
 namespace {
@@ -42,20 +43,45 @@ void titles(ViewModel& model, Part part) {
   ImGui::EndListBox();
 }
 
+/// What the list is of, what is wrong with a value below, and the way back: in a line that is always there,
+/// so that nothing below it jumps. True: back to the file.
+bool heading(const char* title, const std::string& problem, bool isEdited) {
+  const char* const back = "as in the file";
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float button = ImGui::CalcTextSize(back).x + 2 * style.FramePadding.x;
+  const float end = ImGui::GetContentRegionMax().x - button;
+  ImGui::TextDisabled("%s", title);
+  ImGui::SameLine();
+  const std::string shown = fitting(problem, end - ImGui::GetCursorPosX() - style.ItemSpacing.x);
+  ImGui::PushStyleColor(ImGuiCol_Text, kSeries[5]);
+  ImGui::TextUnformatted(shown.c_str());
+  ImGui::PopStyleColor();
+  tip(problem);
+  ImGui::SameLine(end);
+  ImGui::BeginDisabled(!isEdited);
+  const bool isPressed = ImGui::SmallButton(back);
+  ImGui::EndDisabled();
+  return isPressed;
+}
+
 void partRows(ViewModel& model, PanelState& state, Part part, const char* title, const char* none) {
   EditModel& edits = model.edits();
-  ImGui::PushID(title);
-  ImGui::TextDisabled("%s", title);
   const std::size_t index = edits.chosen(part);
-  if (edits.count(part) == 0) {
-    ImGui::TextUnformatted(none);
-  } else {
-    titles(model, part);
-    for (const Control& c : edits.controls(part, index))
-      if (!c.id.ends_with(".on")) controlRow(model, state, c);  // the list has the switches
-    if (index < edits.count(part) && edits.isEdited(part, index) && ImGui::SmallButton("as in the file"))
-      edits.reset(part, index);
+  const auto controls = edits.controls(part, index);
+  std::string problem;
+  for (const Control& c : controls)
+    if (const auto wrong = state.problems.find(c.id); wrong != state.problems.end()) problem = wrong->second;
+  ImGui::PushID(title);
+  if (heading(title, problem, index < edits.count(part) && edits.isEdited(part, index))) {
+    edits.reset(part, index);
+    for (const Control& c : controls) state.problems.erase(c.id);
   }
+  if (edits.count(part) == 0)
+    ImGui::TextUnformatted(none);
+  else
+    titles(model, part);
+  for (const Control& c : controls)
+    if (!c.id.ends_with(".on")) controlRow(model, state, c, true);  // the list has the switches
   ImGui::PopID();
 }
 
@@ -66,8 +92,6 @@ void editPanel(ViewModel& model, PanelState& state) {
   state.showsEdit = ImGui::CollapsingHeader("Edit");
   if (!state.showsEdit) return;
   EditModel& edits = model.edits();
-  partRows(model, state, Part::Light, "lights", "the scene has none");
-  partRows(model, state, Part::Material, "materials", "the scene has none");
   ImGui::BeginDisabled(!edits.hasUndo());
   if (ImGui::Button("undo")) edits.undo();
   ImGui::EndDisabled();
@@ -77,6 +101,8 @@ void editPanel(ViewModel& model, PanelState& state) {
   ImGui::SameLine();
   if (ImGui::Button("copy options")) ImGui::SetClipboardText(model.optionsText().c_str());
   tip(fmt::format("what a file does not hold, as options of whittle render: {}", model.optionsText()));
+  partRows(model, state, Part::Light, "lights", "the scene has none");
+  partRows(model, state, Part::Material, "materials", "the scene has none");
 }
 
 }  // namespace whittle::view

@@ -36,7 +36,9 @@ void textField(ViewModel& model, PanelState& state, const Control& c, const std:
   const bool entered =
       ImGui::InputText("##value", text.data(), text.size(),
                        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-  tip(c.tip);
+  const float room = ImGui::GetItemRectSize().x - 2 * ImGui::GetStyle().FramePadding.x;
+  const bool isCut = ImGui::CalcTextSize(value.c_str()).x > room;
+  tip(isCut ? fmt::format("{}\n{}", value, c.tip) : c.tip);
   if (ImGui::IsItemActive()) state.edited[c.id] = text.data();
   if (entered || ImGui::IsItemDeactivatedAfterEdit()) {
     if (text.data() != value) apply(model, state, c, text.data());
@@ -86,6 +88,14 @@ void amount(ViewModel& model, PanelState& state, const Control& c, const std::st
   tip(c.tip);
 }
 
+/// Half a degree for each pixel of a drag.
+void angle(ViewModel& model, PanelState& state, const Control& c, const std::string& value) {
+  float number = std::strtof(value.c_str(), nullptr);
+  if (ImGui::DragFloat("##value", &number, 0.5F, 0, 0, "%.5g"))
+    apply(model, state, c, fmt::format("{:.6g}", number));
+  tip(c.tip);
+}
+
 void colorField(ViewModel& model, PanelState& state, const Control& c, const std::string& value) {
   std::array<float, 3> rgb{};
   std::istringstream in(value);
@@ -99,34 +109,23 @@ void colorField(ViewModel& model, PanelState& state, const Control& c, const std
                       static_cast<double>(rgb[2]));
 }
 
-constexpr const char* kKeys[][2] = {
-    {"left drag", "orbit about what is under the mouse"},
-    {"middle drag, Shift + left", "pan"},
-    {"click", "the rays of a pixel: a list, and lines over the picture"},
-    {"wheel", "zoom towards what is under the mouse"},
-    {"right drag", "look around"},
-    {"W A S D, Q E", "fly; down, up"},
-    {"R, Home", "the camera of the file"},
-    {"F", "frame all"},
-    {"1  3  7", "from the front, from the right, from above"},
-    {"5", "orthographic, and back"},
-    {"K", "keep the picture as the reference"},
-    {"V, B, M", "the reference beside a line, in the picture's place, the difference"},
-    {"Space", "the reference while it is held"},
-    {"Ctrl+B, then drag", "render a region alone; Ctrl+B or Esc: all"},
-    {"Ctrl+C, Ctrl+V", "camera as command-line options"},
-    {"X", "lights and materials; drag a light's handle"},
-    {"Ctrl+Z", "undo the last edit of them"},
-    {"F12, Ctrl+S", "save .png and .exr"},
-    {"Ctrl+R", "read the file again"},
-    {"Esc", "stop refining"},
-    {"Tab", "panels away, and back"},
-    {"L", "light, dark"},
-    {"H, ?", "this help"},
-    {"Ctrl+Q", "quit"},
-};
-
 }  // namespace
+
+std::string fitting(const std::string& text, float width) {
+  if (text.empty() || ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  std::string part = text;
+  do {
+    part.pop_back();
+    while (!part.empty() && (static_cast<unsigned char>(part.back()) & 0xC0) == 0x80) part.pop_back();
+  } while (!part.empty() && ImGui::CalcTextSize((part + "…").c_str()).x > width);
+  return part + "…";
+}
+
+void shortened(const std::string& text, bool isDim) {
+  const std::string part = fitting(text, ImGui::GetContentRegionAvail().x);
+  isDim ? ImGui::TextDisabled("%s", part.c_str()) : ImGui::TextUnformatted(part.c_str());
+  if (part != text) tip(text);
+}
 
 void tip(const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered()) return;
@@ -137,15 +136,10 @@ void tip(const std::string& text) {
   ImGui::EndTooltip();
 }
 
-void controlRow(ViewModel& model, PanelState& state, const Control& c) {
-  const std::string value = model.value(c.id);
-  ImGui::PushID(c.id.c_str());
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(c.label.c_str());
-  tip(c.tip);
-  const float width = ImGui::GetContentRegionAvail().x, reset = ImGui::GetFrameHeight() + 4;
-  ImGui::SameLine(width * kLabelShare);
-  ImGui::SetNextItemWidth(width * (1 - kLabelShare) - reset);
+namespace {
+
+/// By the control's kind.
+void valueWidget(ViewModel& model, PanelState& state, const Control& c, const std::string& value) {
   switch (c.kind) {
     case Control::Kind::Switch: {
       bool on = value == "on";
@@ -165,6 +159,9 @@ void controlRow(ViewModel& model, PanelState& state, const Control& c) {
     case Control::Kind::Amount:
       amount(model, state, c, value);
       break;
+    case Control::Kind::Angle:
+      angle(model, state, c, value);
+      break;
     case Control::Kind::Color:
       colorField(model, state, c, value);
       break;
@@ -173,15 +170,32 @@ void controlRow(ViewModel& model, PanelState& state, const Control& c) {
       textField(model, state, c, value);
       break;
   }
+}
+
+}  // namespace
+
+void controlRow(ViewModel& model, PanelState& state, const Control& c, bool hasPlace) {
+  const std::string value = model.value(c.id);
+  const bool isWrong = state.problems.contains(c.id);
+  ImGui::PushID(c.id.c_str());
+  ImGui::AlignTextToFramePadding();
+  if (isWrong) ImGui::PushStyleColor(ImGuiCol_Text, kSeries[5]);
+  ImGui::TextUnformatted(c.label.c_str());
+  if (isWrong) ImGui::PopStyleColor();
+  tip(c.tip);
+  const float width = ImGui::GetContentRegionAvail().x, reset = ImGui::GetFrameHeight() + 4;
+  ImGui::SameLine(width * kLabelShare);
+  ImGui::SetNextItemWidth(width * (1 - kLabelShare) - reset);
+  valueWidget(model, state, c, value);
   if (value != c.standard) {
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - reset + 4);
     if (ImGui::Button("\u21ba", {ImGui::GetFrameHeight(), 0})) apply(model, state, c, c.standard);
     tip(fmt::format("back to {}", c.standard.empty() ? "the default" : c.standard));
   }
-  const auto problem = state.problems.find(c.id);
-  if (problem != state.problems.end()) {
+  // The widget may just have mended it.
+  if (!hasPlace && isWrong && state.problems.contains(c.id)) {
     ImGui::PushStyleColor(ImGuiCol_Text, kSeries[5]);
-    ImGui::TextWrapped("%s", problem->second.c_str());
+    ImGui::TextWrapped("%s", state.problems[c.id].c_str());
     ImGui::PopStyleColor();
   }
   if (!c.remark.empty()) ImGui::TextDisabled("%s", c.remark.c_str());
@@ -228,6 +242,35 @@ void filePanel(ViewModel& model, PanelState& state) {
   tip("recent files");
 }
 
+namespace {
+
+/// Perspective with its angle, or orthographic with its height.
+void lensRow(ViewModel& model, float width) {
+  const auto height = model.orthographicHeight();
+  ImGui::SetNextItemWidth(width * kLabelShare);
+  if (ImGui::BeginCombo("##lens", height ? "orthographic" : "perspective")) {
+    if (ImGui::Selectable("perspective", !height) && height) model.switchOrthographic();
+    if (ImGui::Selectable("orthographic", height.has_value()) && !height) model.switchOrthographic();
+    ImGui::EndCombo();
+  }
+  tip("key 5");
+  ImGui::SameLine(0, 4);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  if (height) {
+    auto metres = static_cast<float>(*height);
+    if (ImGui::DragFloat("##height", &metres, 0.01F * metres, 0, 0, "%.4g m high") && metres > 0)
+      model.setOrthographicHeight(static_cast<double>(metres));
+    tip("what the picture shows of the scene from its lower edge to its upper one");
+  } else {
+    auto fov = static_cast<float>(model.fieldOfView());
+    if (ImGui::SliderFloat("##fov", &fov, 5, 120, "%.1f° high"))
+      model.setFieldOfView(static_cast<double>(fov));
+    tip("field of view, from the picture's lower edge to its upper one");
+  }
+}
+
+}  // namespace
+
 void cameraPanel(ViewModel& model) {
   if (!ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) return;
   const auto names = model.cameras();
@@ -240,14 +283,16 @@ void cameraPanel(ViewModel& model) {
       if (ImGui::Selectable(names[i].c_str(), std::to_string(i) == now)) model.chooseCamera(i);
     ImGui::EndCombo();
   }
-  auto fov = static_cast<float>(model.fieldOfView());
-  ImGui::SetNextItemWidth(width);
-  if (ImGui::SliderFloat("##fov", &fov, 5, 120, "field of view %.1f°"))
-    model.setFieldOfView(static_cast<double>(fov));
+  lensRow(model, width);
   if (ImGui::Button("copy")) ImGui::SetClipboardText(model.cameraText().c_str());
   tip(fmt::format("as options of the command line: {}", model.cameraText()));
   ImGui::SameLine();
+  if (ImGui::Button("paste"))
+    if (const char* const text = ImGui::GetClipboardText()) model.pasteCamera(text);
+  tip("a camera from such options");
+  ImGui::SameLine();
   if (ImGui::Button("reset")) model.resetCamera();
+  tip("the camera of the file");
   ImGui::SameLine();
   if (ImGui::Button("frame all")) model.frameAll();
 }
@@ -257,37 +302,13 @@ void messageLine(const ViewModel& model) {
   if (all.empty()) return;
   const auto& last = all.back();
   if (last.isError) ImGui::PushStyleColor(ImGuiCol_Text, kSeries[5]);
-  ImGui::TextUnformatted(last.text.c_str());
+  ImGui::TextUnformatted(fitting(last.text, ImGui::GetContentRegionAvail().x).c_str());
   if (last.isError) ImGui::PopStyleColor();
   if (!ImGui::IsItemHovered()) return;
   std::string lines;
   for (std::size_t i = all.size() > 12 ? all.size() - 12 : 0; i < all.size(); ++i)
     lines.append(all[i].text).push_back('\n');
   tip(lines);
-}
-
-void helpWindow(PanelState& state) {
-  if (!state.showsHelp) return;
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowBgAlpha(0.97F);
-  if (ImGui::Begin(
-          "Keys and mouse", &state.showsHelp,
-          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
-    if (ImGui::BeginTable("keys", 2)) {
-      for (const auto& [keys, what] : kKeys) {
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(keys);
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(what);
-      }
-      ImGui::EndTable();
-    }
-    ImGui::TextDisabled(
-        "Drop a .glb, .gltf, .hdr or .exr on the window to open it, with Shift to compare with it.");
-  }
-  ImGui::End();
 }
 
 }  // namespace whittle::view

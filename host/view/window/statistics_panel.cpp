@@ -21,7 +21,38 @@ void row(const char* label, const std::string& value) {
 
 namespace {
 
-/// Time of each stage as a bar of the longest.
+/// Of the plot below the stages, in lines of text.
+constexpr float kLeastPlot = 4, kMostPlot = 7;
+
+/// What it does, and how fast.
+std::string tipOf(const StageStats& s) {
+  const double rate = s.seconds > 0 ? static_cast<double>(s.items) / s.seconds / 1e6 : 0.0;
+  return fmt::format("{}: {}\n{} launches, {} {}, {:.4g} M/s", s.facts.file, s.facts.label, s.launches,
+                     formatInteger(s.items), s.facts.unit, rate);
+}
+
+/// So many rows leave room for the plot and the headings that follow; some are there in any case.
+std::size_t stageRows() {
+  constexpr float kLeastRows = 6;
+  const float below = 3 * ImGui::GetFrameHeightWithSpacing() + (kLeastPlot + 1) * ImGui::GetTextLineHeight();
+  const float fit = (ImGui::GetContentRegionAvail().y - below) / ImGui::GetTextLineHeightWithSpacing();
+  return static_cast<std::size_t>(std::max(fit, kLeastRows));
+}
+
+/// Time before a bar of its share of the longest.
+void stageRow(const std::string& name, double seconds, double most, double all, const std::string& more) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
+  const auto share = static_cast<float>(seconds / most);
+  constexpr ImU32 kFaint = (kSeries[0] & ~IM_COL32_A_MASK) | (90U << IM_COL32_A_SHIFT);
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y - 1}, {at.x + width * share, at.y + height + 2},
+                                            kFaint);
+  row(name.c_str(), fmt::format("{:.1f} ms  {:.0f} %", 1000 * seconds, 100 * seconds / all));
+  if (ImGui::IsMouseHoveringRect(at, {at.x + width, at.y + height}) && ImGui::IsWindowHovered())
+    ImGui::SetTooltip("%s", more.c_str());
+}
+
+/// Time of each stage, the longest first; where there is no room, of the last ones together.
 void stageBars(const Stats& stats) {
   double most = 0, all = 0;
   for (const auto& s : stats.stages) most = std::max(most, s.seconds), all += s.seconds;
@@ -30,18 +61,19 @@ void stageBars(const Stats& stats) {
   for (const auto& s : stats.stages) stages.push_back(&s);
   std::stable_sort(stages.begin(), stages.end(),
                    [](const StageStats* a, const StageStats* b) { return a->seconds > b->seconds; });
-  for (const StageStats* s : stages) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
-    const auto share = static_cast<float>(s->seconds / most);
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + height + 1},
-                                              {at.x + width * share, at.y + height + 4}, kSeries[0]);
-    row(s->facts.name, fmt::format("{:.1f} ms  {:.0f} %", 1000 * s->seconds, 100 * s->seconds / all));
-    if (ImGui::IsItemHovered())
-      tip(fmt::format("{} launches, {} {}, {:.4g} M/s", s->launches, formatInteger(s->items), s->facts.unit,
-                      s->seconds > 0 ? static_cast<double>(s->items) / s->seconds / 1e6 : 0.0));
-    ImGui::Dummy({0, 3});
+  const std::size_t rows = stageRows(), alone = stages.size() <= rows ? stages.size() : rows - 1;
+  double rest = 0;
+  std::string names;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const StageStats& s = *stages[i];
+    if (i < alone) {
+      stageRow(s.facts.name, s.seconds, most, all, tipOf(s));
+      continue;
+    }
+    rest += s.seconds;
+    names += fmt::format("{}{}  {:.1f} ms", names.empty() ? "" : "\n", s.facts.name, 1000 * s.seconds);
   }
+  if (!names.empty()) stageRow(fmt::format("{} more", stages.size() - alone), rest, most, all, names);
 }
 
 /// Estimated error against time, both logarithmic, with what a random sampler's would fall like.
@@ -49,14 +81,17 @@ void errorPlot(const Stats& stats) {
   std::vector<ErrorPoint> points;
   for (const auto& p : stats.error)
     if (p.estimate > 0 && p.seconds > 0) points.push_back(p);
-  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight() * 7;
+  // As high as there is room above the headings that follow.
+  const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
+  const float room = ImGui::GetContentRegionAvail().y - 2 * ImGui::GetFrameHeightWithSpacing();
+  const float height = std::clamp(room, kLeastPlot * line, kMostPlot * line);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Dummy({width, height});
   ImDrawList* const draw = ImGui::GetWindowDrawList();
-  const ImU32 line = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   draw->AddRect(at, {at.x + width, at.y + height}, ImGui::GetColorU32(ImGuiCol_Border));
   if (points.size() < 2) {
-    draw->AddText({at.x + 6, at.y + 4}, line, "from the second pass on");
+    draw->AddText({at.x + 6, at.y + 4}, ink, "from the second pass on");
     return;
   }
   double x0 = std::log10(points.front().seconds), x1 = std::log10(points.back().seconds);
@@ -75,15 +110,15 @@ void errorPlot(const Stats& stats) {
   for (double s = x0; s < x1; s += (x1 - x0) / 24) {  // dashes of slope -1/2
     const double a = std::pow(10, s), b = std::pow(10, s + (x1 - x0) / 48);
     draw->AddLine(place(a, first.estimate * std::sqrt(first.seconds / a)),
-                  place(b, first.estimate * std::sqrt(first.seconds / b)), line);
+                  place(b, first.estimate * std::sqrt(first.seconds / b)), ink);
   }
   for (std::size_t i = 1; i < points.size(); ++i)
     draw->AddLine(place(points[i - 1].seconds, points[i - 1].estimate),
                   place(points[i].seconds, points[i].estimate), kSeries[1], 2);
   for (const auto& p : points) draw->AddCircleFilled(place(p.seconds, p.estimate), 3, kSeries[1]);
   draw->PopClipRect();
-  draw->AddText({at.x + 6, at.y + 2}, line, fmt::format("{:.3g}", std::pow(10, y1)).c_str());
-  draw->AddText({at.x + 6, at.y + height - ImGui::GetTextLineHeight() - 2}, line,
+  draw->AddText({at.x + 6, at.y + 2}, ink, fmt::format("{:.3g}", std::pow(10, y1)).c_str());
+  draw->AddText({at.x + 6, at.y + height - line - 2}, ink,
                 fmt::format("{:.3g} W/(m² sr)   {:.3g} s … {:.3g} s", std::pow(10, y0), std::pow(10, x0),
                             std::pow(10, x1))
                     .c_str());
@@ -151,7 +186,9 @@ void statisticsPanel(const ViewModel& model) {
   }
   if (!result) return;
   const Stats& stats = result->stats;
-  row("rays per pixel", fmt::format("{:.4g} of {}", stats.samples.mean, stats.settings.raysPerPixel));
+  const bool isEnded = hasErrorTarget(stats.settings) || stats.settings.timeLimit > 0;
+  row("rays per pixel", fmt::format("{:.4g}{} {}", stats.samples.mean, isEnded ? ", at most" : " of",
+                                    stats.settings.raysPerPixel));
   if (!stats.error.empty())
     row("estimated error",
         fmt::format("{:.3g} ({:.2g} %)", stats.error.back().estimate,

@@ -16,6 +16,7 @@ void loadFont(const std::vector<std::filesystem::path>& files, float scale) {
                                         0x2030, 0x2044, 0x2070, 0x209C, 0x2190, 0x21FF,
                                         0x2200, 0x22FF, 0x2500, 0x25FF, 0};
   ImGuiIO& io = ImGui::GetIO();
+  io.Fonts->Clear();
   for (const auto& file : files) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) continue;

@@ -8,10 +8,10 @@
 
 namespace whittle::view {
 
-/// Dark or light, with room between things; `scale`: of the monitor.
+/// Dark or light, with room between things; `scale`: 1 on a monitor of 1080 rows.
 void applyStyle(bool isLight, float scale);
 /// One font with Latin, Greek, arrows and the signs of units; ImGui's own, which has ASCII alone, where no
-/// file is there.
+/// file is there. It takes the place of what was loaded before.
 void loadFont(const std::vector<std::filesystem::path>& files, float scale);
 
 /// Colours of Okabe and Ito (2008), which people with any kind of colour vision can tell apart.

@@ -7,16 +7,15 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "view/window/style.h"
+#include "view/window/scale.h"
 
 namespace whittle::view {
 namespace {
 
-/// Of the panels, in the font's units.
-constexpr float kSettingsWidth = 288, kStatisticsWidth = 300, kLineHeight = 28;
 /// How often a clock and a bar are drawn that go on by themselves. Where OpenGL is software too, each frame
 /// is taken from the render: ten a second cost it a third of its time.
 constexpr double kClockSeconds = 0.5;
@@ -34,8 +33,14 @@ Window::Window(ViewModel& model, const WindowOptions& options) : model_(model), 
     throw std::runtime_error("there is no display to open a window on (DISPLAY, WAYLAND_DISPLAY)");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
-  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  window_ = glfwCreateWindow(1280, 720, options.title.c_str(), nullptr, nullptr);
+  const MonitorFacts monitor = monitorFacts();
+  standardScale_ = options.uiScale.value_or(suitingScale(monitor.scale, monitor.height));
+  scale_ = standardScale_;
+  const auto size = [&](int side, int most) {
+    return std::min(static_cast<int>(std::lround(static_cast<float>(side) * scale_)), most);
+  };
+  window_ = glfwCreateWindow(size(1280, monitor.width), size(720, monitor.height), options.title.c_str(),
+                             nullptr, nullptr);
   if (!window_) {
     const char* said = nullptr;
     glfwGetError(&said);
@@ -45,12 +50,8 @@ Window::Window(ViewModel& model, const WindowOptions& options) : model_(model), 
   }
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
-  float scale = 1;
-  glfwGetWindowContentScale(window_, &scale, nullptr);
-  scale_ = std::clamp(scale, 1.0F, 4.0F);
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
-  loadFont(options.fonts, scale_);
   restyle();
   glfwSetWindowUserPointer(window_, this);
   // ImGui's own callbacks call these.
@@ -90,14 +91,12 @@ Window::~Window() {
   glfwTerminate();
 }
 
-void Window::restyle() {
-  applyStyle(panels_.isLight, scale_);
-  panels_.restyles = false;
-  framesToDraw_ = kFramesAfterEvent;
-}
-
 double Window::now() const { return glfwGetTime(); }
 void Window::quit() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+std::string Window::set(const std::string& id, const std::string& text) {
+  if (PanelState::has(id)) return panels_.set(id, text);
+  return id == kScaleSetting ? setScale(text) : model_.set(id, text);
+}
 void Window::resize(int width, int height) {
   glfwSetWindowSize(window_, std::clamp(width, 1, 16384), std::clamp(height, 1, 16384));
 }
@@ -161,59 +160,11 @@ std::string Window::stateJson() const {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   const std::string own = fmt::format(
-      R"(,"window":{{"width":{},"height":{},"frames":{},"minimised":{},"pictureX":{},"pictureY":{},"pictureWidth":{},"pictureHeight":{}}}}})",
-      width, height, frames_, isMinimised(), picture_.x, picture_.y, picture_.width, picture_.height);
+      R"(,"window":{{"width":{},"height":{},"frames":{},"minimised":{},"pictureX":{},"pictureY":{},"pictureWidth":{},"pictureHeight":{},"uiScale":{},"panels":{},"firstRay":{},"listedRays":{},"statisticsCut":{}}}}})",
+      width, height, frames_, isMinimised(), picture_.x, picture_.y, picture_.width, picture_.height, scale_,
+      panelsShown_, panels_.firstRay, panels_.listedRays, statisticsCut_);
   state.pop_back();
   return state + own;
-}
-
-void Window::drawPanels(float width, float height) {
-  const float unit = ImGui::GetFontSize() / 15, line = kLineHeight * unit;
-  const bool hasRoom = width > (kSettingsWidth + kStatisticsWidth + 120) * unit;
-  const bool shown = panels_.showsPanels && hasRoom && height > 4 * line;
-  const float left = shown ? kSettingsWidth * unit : 0, right = shown ? kStatisticsWidth * unit : 0;
-  const float middle = std::max(1.0F, width - left - right), legend = legendHeight();
-  picture_ = pictureRect(left, 0, middle, std::max(1.0F, height - line - legend));
-  drawPicture();
-  drawScale();
-  drawLegend(left, height - line - legend, middle);
-  drawRegion();
-  drawRays(hoveredRay_);
-  drawHandles();
-  constexpr auto kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
-                          ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoBringToFrontOnFocus;
-  const auto panel = [&](const char* name, float x, float y, float w, float h, const auto& content) {
-    ImGui::SetNextWindowPos({x, y});
-    ImGui::SetNextWindowSize({w, h});
-    if (ImGui::Begin(name, nullptr, kFixed)) content();
-    ImGui::End();
-  };
-  if (shown) {
-    panel("settings", 0, 0, left, height - line, [&] {
-      filePanel(model_, panels_);
-      cameraPanel(model_);
-      editPanel(model_, panels_);
-      settingsPanel(model_, panels_);
-    });
-    hoveredRay_ = -1;
-    panel("statistics", width - right, 0, right, height - line, [&] {
-      if (model_.explained())
-        hoveredRay_ = explanationPanel(model_);
-      else
-        comparePanel(model_), statisticsPanel(model_);
-    });
-  }
-  if (height > line)
-    panel("messages", 0, height - line, width, line, [&] {
-      ImGui::SetCursorPosY((line - ImGui::GetTextLineHeight()) / 2);
-      if (ImGui::SmallButton("H: help")) panels_.showsHelp = !panels_.showsHelp;
-      ImGui::SameLine();
-      if (panels_.showsPanels && !shown)
-        ImGui::TextDisabled("no room for the panels: make the window larger");
-      else
-        messageLine(model_);
-    });
-  helpWindow(panels_);
 }
 
 void Window::frame() {

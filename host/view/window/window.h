@@ -22,6 +22,9 @@ inline constexpr int kFramesAfterEvent = 3;
 /// Without a move for so long the hand is off the camera.
 inline constexpr double kRestSeconds = 0.15;
 
+/// What the colours of the difference mean.
+ColorScale differenceScale(const CompareView& compared);
+
 class Window : public Stage {
  public:
   /// Throws std::runtime_error where there is no display, or none with OpenGL 3.
@@ -43,7 +46,7 @@ class Window : public Stage {
   void restore() override;
   void drop(const std::string& file) override;
   void screenshot(const std::filesystem::path& file) override { pendingShot_ = file; }
-  std::string set(const std::string& id, const std::string& text) override { return model_.set(id, text); }
+  std::string set(const std::string& id, const std::string& text) override;
   void saveScene(const std::filesystem::path& file) override { model_.edits().save(file); }
   bool hasPicture() const override { return model_.hasPicture(); }
   bool isFinished() const override { return model_.isFinished(); }
@@ -54,9 +57,14 @@ class Window : public Stage {
 
  private:
   void frame();
+  // What stands where: window_panels.cpp.
   void drawPanels(float width, float height);
+  void leftPanel();
+  void rightPanel();
+  void bottomLine(float height);
   void drawPicture();
-  void drawScale();
+  void drawScales();
+  void drawScale(const ColorScale& scale, int steps);
   void drawRays(int emphasised);
   void drawHandles();
   /// A handle that the mouse has; false: it has none.
@@ -90,11 +98,13 @@ class Window : public Stage {
   bool slidesSplit();  ///< the mouse is taken
   void drawSplit();
   void drawNames();
-  float legendHeight() const;  ///< 0: there is none
-  void drawLegend(float left, float top, float width);
   void shortcuts(int key, bool ctrl);
   void pressed(int key, int mods);
+  // Size and colours: window_scale.cpp.
   void restyle();
+  std::string setScale(const std::string& text);  ///< as ViewModel::set
+  bool scaleShortcut(int key);                    ///< false: it is none
+  void scaleButtons();
   /// The picture's rectangle in the window.
   struct Rect {
     float x = 0, y = 0, width = 0, height = 0;
@@ -119,7 +129,10 @@ class Window : public Stage {
   Marker marker_;
   bool isSliding_ = false;  ///< the line between picture and reference
   Rect picture_;
-  float scale_ = 1;  ///< of the monitor
+  float scale_ = 1, standardScale_ = 1;  ///< of letters and panels; and what the window began with
+  float fontScale_ = 0;                  ///< that the letters were drawn for; 0: there are none
+  float statisticsCut_ = 0;              ///< pixels of the right panel that one must scroll to see
+  int panelsShown_ = 0;                  ///< beside the picture: none for want of room, one or both
   int framesToDraw_ = 3;
   int frames_ = 0;
   double drawnAt_ = 0;

@@ -1,5 +1,4 @@
-// The reference in the window: left and right of a line, in the picture's place, or the difference with its
-// legend.
+// The reference in the window: left and right of a line, in the picture's place, or the difference.
 #include <fmt/format.h>
 #include <GLFW/glfw3.h>
 
@@ -11,13 +10,10 @@
 namespace whittle::view {
 namespace {
 
-/// How near to the line the mouse has it, pixels.
+/// How near to the line the mouse has it, pixels where the scale is 1.
 constexpr float kReach = 6;
-/// Of the legend: a title, the colours, numbers; in lines of text.
-constexpr float kLegendLines = 3.6F;
-constexpr float kLegendWidth = 460;
 
-std::string legendTitle(const CompareView& c) {
+std::string errorTitle(const CompareView& c) {
   if (c.isRelative)
     return fmt::format("relative error of {}: a share of the reference; 0 is black",
                        c.isOfCodes ? "the codes' linear light" : "radiance");
@@ -26,6 +22,10 @@ std::string legendTitle(const CompareView& c) {
 }
 
 }  // namespace
+
+ColorScale differenceScale(const CompareView& c) {
+  return {c.scale.low, c.scale.low * std::pow(10.0, kDecades), true, errorTitle(c)};
+}
 
 void Window::switchCompare(CompareMode mode) {
   const bool isOn = model_.compared().mode == mode;
@@ -68,9 +68,9 @@ float Window::splitPlace() const {
 bool Window::slidesSplit() {
   const ImGuiIO& io = ImGui::GetIO();
   if (!isSplit()) return isSliding_ = false;
-  const float line = picture_.x + splitPlace() * picture_.width;
-  const bool isNear = std::abs(io.MousePos.x - line) <= kReach && io.MousePos.y >= picture_.y - kReach &&
-                      io.MousePos.y <= picture_.y + picture_.height + kReach && !io.WantCaptureMouse;
+  const float line = picture_.x + splitPlace() * picture_.width, reach = kReach * scale_;
+  const bool isNear = std::abs(io.MousePos.x - line) <= reach && io.MousePos.y >= picture_.y - reach &&
+                      io.MousePos.y <= picture_.y + picture_.height + reach && !io.WantCaptureMouse;
   if (isNear || isSliding_) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (isNear && ImGui::IsMouseClicked(0)) isSliding_ = true;
   if (!isSliding_) return false;
@@ -87,8 +87,9 @@ void Window::drawSplit() {
   draw.AddRectFilled({x - 1, top}, {x, bottom}, IM_COL32(0, 0, 0, 200));
   draw.AddRectFilled({x, top}, {x + 1, bottom}, IM_COL32(255, 255, 255, 200));
   const ImU32 grip = ImGui::GetColorU32(ImGuiCol_Text);
-  draw.AddTriangleFilled({x - 6, top - 10}, {x + 6, top - 10}, {x, top - 1}, grip);
-  draw.AddTriangleFilled({x, bottom + 1}, {x + 6, bottom + 10}, {x - 6, bottom + 10}, grip);
+  const float side = kReach * scale_, tall = 10 * scale_;
+  draw.AddTriangleFilled({x - side, top - tall}, {x + side, top - tall}, {x, top - 1}, grip);
+  draw.AddTriangleFilled({x, bottom + 1}, {x + side, bottom + tall}, {x - side, bottom + tall}, grip);
 }
 
 /// Above the picture, where there is room: which is which.
@@ -105,37 +106,6 @@ void Window::drawNames() {
   const std::string name = fmt::format("reference: {}", c.name);
   const float width = ImGui::CalcTextSize(name.c_str()).x;
   draw.AddText({hasPicture ? picture_.x + picture_.width - width : picture_.x, y}, color, name.c_str());
-}
-
-float Window::legendHeight() const {
-  const CompareView& c = model_.compared();
-  const bool isShown = c.mode == CompareMode::Difference && c.difference.serial > 0;
-  return isShown ? ImGui::GetTextLineHeight() * kLegendLines : 0;
-}
-
-void Window::drawLegend(float left, float top, float width) {
-  if (legendHeight() <= 0) return;
-  const CompareView& c = model_.compared();
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const float line = ImGui::GetTextLineHeight(), margin = line * 1.5F;
-  const float length = std::max(1.0F, std::min(width - 2 * margin, kLegendWidth * line / 15));
-  const float x0 = left + (width - length) / 2, bar = top + line * 1.2F;
-  const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text);
-  const std::string title = legendTitle(c);
-  draw.AddText({left + (width - ImGui::CalcTextSize(title.c_str()).x) / 2, top}, text, title.c_str());
-  const auto count = static_cast<float>(c.colors.size());
-  for (std::size_t i = 0; i < c.colors.size(); ++i) {
-    const auto at = static_cast<float>(i);
-    draw.AddRectFilled({x0 + length * at / count, bar},
-                       {x0 + length * (at + 1) / count + 0.5F, bar + line * 0.8F},
-                       IM_COL32(c.colors[i][0], c.colors[i][1], c.colors[i][2], 255));
-  }
-  for (int decade = 0; decade <= kDecades; ++decade) {
-    const float x = x0 + length * static_cast<float>(decade) / kDecades;
-    const std::string number = fmt::format("{:g}", c.scale.low * std::pow(10.0, decade));
-    draw.AddLine({x, bar + line * 0.8F}, {x, bar + line}, text);
-    draw.AddText({x - ImGui::CalcTextSize(number.c_str()).x / 2, bar + line * 1.1F}, text, number.c_str());
-  }
 }
 
 }  // namespace whittle::view

@@ -26,6 +26,8 @@ std::pair<int, int> keyOf(std::string name) {
   if (name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0])))
     return {std::toupper(static_cast<unsigned char>(name[0])), mods};
   if (name == "?") return {GLFW_KEY_H, 0};
+  if (name == "+") return {GLFW_KEY_EQUAL, mods};
+  if (name == "-") return {GLFW_KEY_MINUS, mods};
   if (name == "Escape" || name == "Esc") return {GLFW_KEY_ESCAPE, mods};
   if (name == "Home") return {GLFW_KEY_HOME, mods};
   if (name == "Tab") return {GLFW_KEY_TAB, mods};
@@ -118,6 +120,7 @@ void Window::pressed(int key, int mods) {
 
 void Window::shortcuts(int key, bool ctrl) {
   if (ctrl) {
+    if (scaleShortcut(key)) return;
     if (key == 'B') switchRegion();
     if (key == 'Q') quit();
     if (key == 'R') model_.reload();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@
 #include "view/view_model.h"
 
 namespace whittle::view {
+
+/// Of letters and panels; 1: as on a monitor of 1080 rows.
+inline constexpr float kLeastUiScale = 0.5F, kLargestUiScale = 4.0F;
 
 struct WindowOptions {
   std::string title;
@@ -23,6 +27,7 @@ struct WindowOptions {
   std::function<void(const std::string&)> print;  ///< a line on standard output
   std::vector<std::filesystem::path> fonts;       ///< the first that is there is taken
   bool isLight = false;
+  std::optional<float> uiScale;  ///< unset: what suits the monitor
 };
 
 class WindowLibrary {

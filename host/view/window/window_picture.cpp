@@ -71,32 +71,54 @@ void Window::drawPicture() {
   drawNames();
 }
 
-/// What the colours mean, under the picture, or at its lower left where there is no room.
-void Window::drawScale() {
-  const std::optional<ColorScale>& scale = model_.picture().scale;
-  if (!scale || texture_.serial == 0) return;
+/// What the colours mean that are shown.
+void Window::drawScales() {
+  if (texture_.serial == 0) return;
+  constexpr int kHalves = 2;
+  const CompareView& c = model_.compared();
+  if (pictureBeside() == &c.difference)
+    drawScale(differenceScale(c), kDecades);
+  else if (const auto& scale = model_.picture().scale)
+    drawScale(*scale, kHalves);
+}
+
+/// Under the picture, or over its lower left where there is no room: it moves nothing. So many equal steps
+/// have numbers at their ends.
+void Window::drawScale(const ColorScale& scale, int steps) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const float line = ImGui::GetTextLineHeight(), margin = line / 2;
-  const float width = std::min(line * 18, picture_.width - 4 * margin);
+  const float width = std::min(line * (4.0F * static_cast<float>(steps) + 8), picture_.width - 4 * margin);
   if (width < line * 6 || picture_.height < 4 * line) return;
-  const float height = 2.5F * line + 2 * margin, bottom = picture_.y + picture_.height;
+  const char* const title = scale.quantity.c_str();
+  const float titleHeight = ImGui::CalcTextSize(title, nullptr, false, width).y;
+  const float inner = titleHeight + 1.5F * line, height = inner + 2 * margin;
+  const float bottom = picture_.y + picture_.height;
   const bool hasRoom = ImGui::GetIO().DisplaySize.y - bottom > height + 3 * line;
-  const ImVec2 at{picture_.x + margin, hasRoom ? bottom + 2 * margin : bottom - height};
-  draw.AddRectFilled({at.x - margin, at.y - margin}, {at.x + width + margin, at.y + 2.5F * line + margin},
+  const ImVec2 at{picture_.x + margin, hasRoom ? bottom + 2 * margin : bottom - inner - margin};
+  draw.AddRectFilled({at.x - margin, at.y - margin}, {at.x + width + margin, at.y + inner + margin},
                      IM_COL32(0, 0, 0, 190), 4);
+  draw.AddText(nullptr, 0, at, IM_COL32_WHITE, title, nullptr, width);
   const auto& colors = model_.compared().colors;
-  const float step = width / static_cast<float>(colors.size());
+  const float step = width / static_cast<float>(colors.size()), bar = at.y + titleHeight + 0.1F * line;
   float left = at.x;
   for (const Code& code : colors) {
-    draw.AddRectFilled({left, at.y + line * 1.1F}, {left + step + 0.5F, at.y + line * 1.5F},
+    draw.AddRectFilled({left, bar}, {left + step + 0.5F, bar + line * 0.4F},
                        IM_COL32(code[0], code[1], code[2], 255));
     left += step;
   }
-  draw.AddText(at, IM_COL32_WHITE, scale->quantity.c_str());
-  for (const double share : {0.0, 0.5, 1.0}) {
-    const std::string number = fmt::format("{:.3g}", scale->valueAt(share));
+  const auto numberAt = [&](double share) { return fmt::format("{:.3g}", scale.valueAt(share)); };
+  while (steps > 1 && steps % 2 == 0) {  // as many numbers as stand apart
+    float taken = 0;
+    for (int i = 0; i <= steps; ++i)
+      taken += ImGui::CalcTextSize(numberAt(static_cast<double>(i) / steps).c_str()).x + line / 2;
+    if (taken < width) break;
+    steps /= 2;
+  }
+  for (int i = 0; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    const std::string number = numberAt(share);
     const float room = width - ImGui::CalcTextSize(number.c_str()).x;
-    draw.AddText({at.x + static_cast<float>(share) * room, at.y + 1.6F * line}, IM_COL32_WHITE,
+    draw.AddText({at.x + static_cast<float>(share) * room, bar + 0.45F * line}, IM_COL32_WHITE,
                  number.c_str());
   }
 }
@@ -106,6 +128,8 @@ namespace {
 struct Stroke {
   ImU32 color;
   float width, dash, gap;  ///< pixels; no gap: solid
+
+  Stroke scaled(float by) const { return {color, width * by, dash * by, gap * by}; }
 };
 
 /// Told apart by pattern as well as by colour.
@@ -150,10 +174,10 @@ void Window::drawRays(int emphasised) {
   const auto at = [&](double x, double y) { return inWindow(x, y); };
   for (const DrawnRay& d : e->drawn) {
     const bool isOn = static_cast<int>(d.ray) == emphasised;
-    drawStroke(draw, at(d.x0, d.y0), at(d.x1, d.y1), strokeOf(d.line), isOn ? 2.0F : 0.0F);
+    drawStroke(draw, at(d.x0, d.y0), at(d.x1, d.y1), strokeOf(d.line).scaled(scale_), isOn ? 2 * scale_ : 0);
     if (d.line == Line::Eye) {
-      draw.AddCircle(at(d.x0, d.y0), 7, IM_COL32_BLACK, 0, 4);
-      draw.AddCircle(at(d.x0, d.y0), 7, IM_COL32_WHITE, 0, 2);
+      draw.AddCircle(at(d.x0, d.y0), 7 * scale_, IM_COL32_BLACK, 0, 4 * scale_);
+      draw.AddCircle(at(d.x0, d.y0), 7 * scale_, IM_COL32_WHITE, 0, 2 * scale_);
     }
   }
   draw.PopClipRect();

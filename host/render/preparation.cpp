@@ -43,10 +43,15 @@ Compute openDevice(const Settings& settings, Compute::Memory memory, Compute::La
   return Compute(selectDevice(listDevices(), settings.device), memory, launches);
 }
 
-Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo& device) {
+std::unique_ptr<tbb::global_control> limitThreads(int threads) {
+  if (threads <= 0) return nullptr;
+  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+}
+
+Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo& device, TexelFacts* texels) {
   Decisions d;
   d.camera = findCamera(scene, settings.camera);
-  d.pruned = pruneScene(scene, settings);
+  d.pruned = pruneScene(scene, settings, texels);
   d.features = SceneFeatures::analyse(scene, d.pruned, settings, {device.suitsPackets()});
   d.compactChunk = defaultCompactChunk(device);
   d.workGroup = settings.workGroup > 0 ? settings.workGroup : defaultWorkGroup(d.features);

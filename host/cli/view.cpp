@@ -63,8 +63,7 @@ class Sources {
 
   /// `file`: a scene, an environment, or empty: all as before.
   Scene load(const fs::path& file, Settings& settings, std::vector<std::string>& notes) {
-    const std::lock_guard lock(mutex_);
-    SceneOptions options = options_;
+    SceneOptions options = currentOptions();  // the window asks about pictures while a scene is read
     if (isEnvironment(file))
       options.background = file.string();
     else if (!file.empty())
@@ -73,9 +72,10 @@ class Sources {
     Notices notices;
     MemoryBudget budget = budgetOf(options);
     Scene scene = loadScene(options, kCosts, settings, budget, notices);
-    options.quiet = options_.quiet;
     options.crop.reset();  // from now on the window's
-    options_ = options;    // what could not be read is not asked for again
+    const std::lock_guard lock(mutex_);
+    options.quiet = options_.quiet;
+    options_ = options;  // what could not be read is not asked for again
     allowedPicture_ = pictureBytes(settings);
     notes = notices.warnings;
     notes.insert(notes.end(), notices.notes.begin(), notices.notes.end());
@@ -109,6 +109,10 @@ class Sources {
  private:
   static constexpr CommandCosts kCosts{kTriangleBytes, kRuntimeBytes, pictureBytes};
 
+  SceneOptions currentOptions() {
+    const std::lock_guard lock(mutex_);
+    return options_;
+  }
   static bool isEnvironment(const fs::path& file) {
     return file.extension() == ".hdr" || file.extension() == ".exr";
   }
@@ -211,7 +215,10 @@ int runView(ViewOptions& o) {
   window.title =
       o.scene.file.empty() ? "Whittle" : fmt::format("{} – Whittle", o.scene.file.filename().string());
   window.isLight = o.isLight;
-  window.print = [](const std::string& line) { tell(line + "\n"); };
+  window.print = [](const std::string& line) {
+    tell(line + "\n");
+    finishOutput();  // whoever drives the script may wait for it
+  };
   window.writeCodes = [](const fs::path& file, int width, int height,
                          const std::vector<std::uint8_t>& codes) {
     writeCodes(file, {width, height, 4, codes}, {});

@@ -83,6 +83,8 @@ class ViewModel {
   virtual bool isFinished() const = 0;
   /// It is of what was asked for last, coarse or not.
   virtual bool hasPicture() const = 0;
+  /// Its codes are of the newest result and of exposure, tone map and layer as they are set.
+  virtual bool hasNewestCodes() const = 0;
   /// Lines for the user: notes of loading, what was written, what went wrong; the newest last.
   struct Message {
     bool isError = false;

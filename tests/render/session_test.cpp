@@ -80,7 +80,7 @@ TEST(RenderSession, AnotherCameraCostsNothingAndShowsWhatItSees) {
 }
 
 /// One, four, sixteen …; only doubled where a pass took long.
-TEST(RenderSession, PassesMultiplyTheSamplesAndTheLastIsThePicture) {
+TEST(RenderSession, PassesMultiplyTheSamplesAndTheLastIsTheResult) {
   RenderSession session;
   const Scene scene = ownScene("cornell_box");
   const Settings settings = sessionSettings();
@@ -92,14 +92,16 @@ TEST(RenderSession, PassesMultiplyTheSamplesAndTheLastIsThePicture) {
     last = std::move(result.radiance);
   };
   const RenderResult whole = session.render(scene, settings, hooks);
-  ASSERT_GE(samples.size(), 2U);
+  ASSERT_FALSE(samples.empty());
   EXPECT_EQ(samples.front(), 1);
-  EXPECT_EQ(samples.back(), settings.raysPerPixel);
+  EXPECT_LT(samples.back(), settings.raysPerPixel) << "the last pass is the result, not shown before";
+  EXPECT_EQ(whole.stats.samples.mean, settings.raysPerPixel);
+  samples.push_back(whole.stats.samples.mean);
   for (std::size_t i = 1; i < samples.size(); ++i) {
     EXPECT_GE(samples[i], std::min(2 * samples[i - 1], samples.back())) << i;
     EXPECT_LE(samples[i], 4 * samples[i - 1]) << i;
   }
-  EXPECT_EQ(differingPixels(last, whole.radiance), 0U);
+  EXPECT_GT(differingPixels(last, whole.radiance), 0U);
   EXPECT_EQ(differingPixels(whole.radiance, render(scene, settings, testHooks()).radiance), 0U);
 }
 

@@ -161,8 +161,9 @@ std::string Window::stateJson() const {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   const std::string own = fmt::format(
-      R"(,"window":{{"width":{},"height":{},"frames":{},"minimised":{},"pictureX":{},"pictureY":{},"pictureWidth":{},"pictureHeight":{}}}}})",
-      width, height, frames_, isMinimised(), picture_.x, picture_.y, picture_.width, picture_.height);
+      R"(,"window":{{"width":{},"height":{},"frames":{},"frameSeconds":{},"minimised":{},"pictureX":{},"pictureY":{},"pictureWidth":{},"pictureHeight":{}}}}})",
+      width, height, frames_, frameSeconds_, isMinimised(), picture_.x, picture_.y, picture_.width,
+      picture_.height);
   state.pop_back();
   return state + own;
 }
@@ -173,6 +174,7 @@ void Window::drawPanels(float width, float height) {
   const bool shown = panels_.showsPanels && hasRoom && height > 4 * line;
   const float left = shown ? kSettingsWidth * unit : 0, right = shown ? kStatisticsWidth * unit : 0;
   const float middle = std::max(1.0F, width - left - right), legend = legendHeight();
+  ground_ = {left, 0, middle, std::max(1.0F, height - line)};
   picture_ = pictureRect(left, 0, middle, std::max(1.0F, height - line - legend));
   drawPicture();
   drawScale();
@@ -185,7 +187,10 @@ void Window::drawPanels(float width, float height) {
   const auto panel = [&](const char* name, float x, float y, float w, float h, const auto& content) {
     ImGui::SetNextWindowPos({x, y});
     ImGui::SetNextWindowSize({w, h});
-    if (ImGui::Begin(name, nullptr, kFixed)) content();
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32_BLACK_TRANS);  // see clear
+    const bool isShown = ImGui::Begin(name, nullptr, kFixed);
+    ImGui::PopStyleColor();
+    if (isShown) content();
     ImGui::End();
   };
   if (shown) {
@@ -217,6 +222,7 @@ void Window::drawPanels(float width, float height) {
 }
 
 void Window::frame() {
+  const double began = now();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGuiIO& io = ImGui::GetIO();
@@ -233,14 +239,14 @@ void Window::frame() {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   glViewport(0, 0, width, height);
-  glClearColor(0, 0, 0, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
+  clear(width, height);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (!pendingShot_.empty()) writeShot();
   if (panels_.restyles) restyle();
   ++frames_;
   glfwSwapBuffers(window_);
   drawnAt_ = now();
+  frameSeconds_ = drawnAt_ - began;
 }
 
 }  // namespace whittle::view

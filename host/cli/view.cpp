@@ -1,10 +1,12 @@
 // whittle view: a scene in a window, with every setting and statistic of a render.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <mutex>
 #include <sstream>
+#include <thread>
 
 #include "cl/device.h"
 #include "cl/kernel_cache.h"
@@ -175,7 +177,9 @@ int runView(ViewOptions& o) {
   std::optional<view::Script> script;
   if (!o.script.empty()) script = readScript(o.script);
   warnIfAny(settleKernelCache());
-  prepareCpuThreads(o.settings.threads, o.settings.workGroup);
+  // As many as there are: the setting takes a part of them.
+  prepareCpuThreads(std::max(o.settings.threads, static_cast<int>(std::thread::hardware_concurrency())),
+                    o.settings.workGroup);
   loadImageCodec();
 
   auto sources = std::make_shared<Sources>(o.scene);

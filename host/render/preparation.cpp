@@ -39,8 +39,10 @@ void checkSettings(const Settings& s) {
 }
 
 Compute openDevice(const Settings& settings, Compute::Memory memory, Compute::Launches launches) {
-  prepareCpuThreads(settings.threads, settings.workGroup);
-  return Compute(selectDevice(listDevices(), settings.device), memory, launches);
+  // The environment is left alone: the platform has read it, or another thread may.
+  prepareCpuThreads(0, settings.workGroup);
+  return Compute(withThreads(selectDevice(listDevices(), settings.device), settings.threads), memory,
+                 launches);
 }
 
 std::unique_ptr<tbb::global_control> limitThreads(int threads) {

@@ -35,7 +35,7 @@ struct Control {
   std::vector<std::string> captions;  ///< what a Choice shows for each of its words, where it is another text
   std::string standard;               ///< the default
   std::string tip;                    ///< the option's help
-  std::string remark;                 ///< "at the next start", or empty
+  std::string remark;                 ///< when it takes effect, or empty
 };
 
 /// Codes as `whittle render` writes them into a .png of the same settings.

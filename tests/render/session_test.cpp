@@ -50,6 +50,26 @@ TEST(RenderSession, GivesTheBitsOfSingleRenders) {
   EXPECT_TRUE(session.work().scene);
 }
 
+/// Of a device that can be divided, which PoCL's can: the platform itself reads its number of threads once.
+TEST(RenderSession, AnotherNumberOfThreadsHoldsAtOnceAndChangesNoBit) {
+  RenderSession session;
+  const Scene scene = ownScene("cornell_box");
+  Settings settings = sessionSettings();
+  const RenderResult all = session.render(scene, settings, testHooks());
+  if (all.stats.device.computeUnits < 2) GTEST_SKIP() << "one compute unit cannot be divided";
+  settings.threads = 1;
+  const RenderResult one = session.render(scene, settings, testHooks());
+  EXPECT_TRUE(session.work().device) << "opened for as many";
+  if (one.stats.device.computeUnits == all.stats.device.computeUnits)
+    GTEST_SKIP() << "the driver does not divide " << one.stats.device.name;
+  EXPECT_EQ(one.stats.device.computeUnits, 1U);
+  EXPECT_EQ(differingPixels(one.radiance, all.radiance), 0U);
+  settings.threads = 0;
+  const RenderResult again = session.render(scene, settings, testHooks());
+  EXPECT_EQ(again.stats.device.computeUnits, all.stats.device.computeUnits);
+  EXPECT_EQ(differingPixels(again.radiance, all.radiance), 0U);
+}
+
 TEST(RenderSession, AnotherSceneIsUploadedWhenItIsSaid) {
   RenderSession session;
   const Settings settings = sessionSettings();

@@ -39,6 +39,8 @@ CHECKS = {
     "cutoff": Check("What does a cut-off save, and what does it cost?",
                     "cutoff.py", "cutoff.tsv",
                     (str(SCENES / "nested_glass.glb"), "--bounces", "8", "--runs", "1", *SMALL)),
+    "window": Check("What does the window cost, and how soon does it answer?",
+                    "window.py", "window.tsv", ("--pairs", "1", "--rays", "4", str(SCENES / "cornell_box.glb"))),
     "searches": Check("How fast are the searches, beside Embree's?",
                       "searches.sh", "searches.txt", ("--quick",), ("make_scenes",)),
     "build_quality": Check("What does the fast build of the tree cost the rays?",

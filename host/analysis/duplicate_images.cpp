@@ -37,7 +37,14 @@ std::uint64_t hashOf(const Image& image) {
                                : std::as_bytes(std::span(image.texels)));
 }
 
-bool areAlike(const Image& a, const Image& b) { return a.texels == b.texels && a.deepTexels == b.deepTexels; }
+bool areAlike(const std::vector<Image>& images, std::uint32_t a, std::uint32_t b, TexelFacts& facts) {
+  const auto [at, isNew] = facts.areAlike.try_emplace({a, b}, false);
+  if (isNew) {
+    at->second = images[a].texels == images[b].texels && images[a].deepTexels == images[b].deepTexels;
+    facts.reads += 2;
+  }
+  return at->second;
+}
 
 struct Key {
   int width, height;
@@ -54,7 +61,7 @@ struct Key {
 }  // namespace
 
 std::vector<std::uint32_t> firstAlike(const std::vector<Image>& images,
-                                      const std::vector<std::uint8_t>& wanted) {
+                                      const std::vector<std::uint8_t>& wanted, TexelFacts& facts) {
   std::vector<std::uint32_t> first(images.size());
   std::map<std::pair<int, int>, int> ofSize;
   for (std::uint32_t i = 0; i < images.size(); ++i) {
@@ -65,20 +72,30 @@ std::vector<std::uint32_t> firstAlike(const std::vector<Image>& images,
   for (std::uint32_t i = 0; i < images.size(); ++i)
     if (wanted[i] && ofSize[{images[i].width, images[i].height}] > 1)
       keys.push_back({images[i].width, images[i].height, 0, i});
-  tbb::parallel_for(std::size_t{0}, keys.size(),
-                    [&](std::size_t k) { keys[k].hash = hashOf(images[keys[k].index]); });
+  facts.hashes.resize(images.size());
+  for (const Key& key : keys) facts.reads += !facts.hashes[key.index];
+  tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t k) {
+    auto& hash = facts.hashes[keys[k].index];  // each image's own
+    if (!hash) hash = hashOf(images[keys[k].index]);
+    keys[k].hash = *hash;
+  });
   std::sort(keys.begin(), keys.end());
   for (std::size_t k = 1; k < keys.size(); ++k) {
     const std::uint32_t before = first[keys[k - 1].index];
-    if (keys[k].picture() == keys[k - 1].picture() && areAlike(images[before], images[keys[k].index]))
+    if (keys[k].picture() == keys[k - 1].picture() && areAlike(images, before, keys[k].index, facts))
       first[keys[k].index] = before;
   }
   return first;
 }
 
-std::uint8_t leastAlpha(const Image& image) {
+std::uint8_t leastAlpha(const std::vector<Image>& images, std::size_t index, TexelFacts& facts) {
+  facts.leastAlphas.resize(images.size());
+  auto& known = facts.leastAlphas[index];
+  if (known) return *known;
+  const Image& image = images[index];
+  ++facts.reads;
   using Range = tbb::blocked_range<std::size_t>;
-  return tbb::parallel_reduce(
+  known = tbb::parallel_reduce(
       Range(0, image.texels.size() / 4, 1 << 16), std::uint8_t{255},
       [&](const Range& range, std::uint8_t least) {
         for (std::size_t i = range.begin(); i < range.end(); ++i)
@@ -86,6 +103,7 @@ std::uint8_t leastAlpha(const Image& image) {
         return least;
       },
       [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+  return *known;
 }
 
 }  // namespace whittle

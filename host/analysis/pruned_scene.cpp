@@ -14,7 +14,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "analysis/duplicate_images.h"
 #include "analysis/light_reach.h"
 #include "analysis/material_use.h"
 #include "scene/material_predicates.h"
@@ -73,19 +72,17 @@ std::vector<AlphaBounds> vertexAlphas(const Scene& scene) {
 }
 
 /// Needless masks and blends become opaque. `read`: the materials as read, `used`: those that triangles have.
-void dropNeedlessAlpha(const Scene& scene, const Flags& used, std::vector<Material>& read,
+void dropNeedlessAlpha(const Scene& scene, const Flags& used, std::vector<Material>& read, TexelFacts& texels,
                        PruningReport& pruning) {
   std::vector<AlphaBounds> colours;
-  std::unordered_map<int, int> leastTexels;  // by image
   for (std::size_t i = 0; i < read.size(); ++i) {
     Material& m = read[i];
     AlphaSource source;
     const auto needless = [&] { return maskIsNeedless(m, source) || blendIsNeedless(m, source); };
     if (!used[i] || !needless()) continue;  // not even by its factor
     if (m.baseColorTexture.used()) {
-      const auto [at, isNew] = leastTexels.try_emplace(m.baseColorTexture.image, 0);
-      if (isNew) at->second = leastAlpha(scene.images[static_cast<std::size_t>(at->first)]);
-      source.leastTexel = at->second;
+      const auto image = static_cast<std::size_t>(m.baseColorTexture.image);
+      source.leastTexel = leastAlpha(scene.images, image, texels);
     }
     if (!needless()) continue;
     source.coloured = !scene.colors.empty();
@@ -101,12 +98,13 @@ void dropNeedlessAlpha(const Scene& scene, const Flags& used, std::vector<Materi
 }
 
 /// Slots of alike images name one of them.
-void shareImages(const Scene& scene, const Flags& used, std::vector<Material>& read, PruningReport& pruning) {
+void shareImages(const Scene& scene, const Flags& used, std::vector<Material>& read, TexelFacts& texels,
+                 PruningReport& pruning) {
   Flags wanted(scene.images.size());
   for (std::size_t i = 0; i < read.size(); ++i)
     for (const auto slot : kTextureSlots)
       if (used[i] && (read[i].*slot).used()) wanted[static_cast<std::size_t>((read[i].*slot).image)] = 1;
-  const auto first = firstAlike(scene.images, wanted);
+  const auto first = firstAlike(scene.images, wanted, texels);
   for (Material& m : read)
     for (const auto slot : kTextureSlots)
       if (int& image = (m.*slot).image; image >= 0)
@@ -218,7 +216,7 @@ PrunedScene unprunedScene(const Scene& scene) {
   return pruned;
 }
 
-PrunedScene pruneScene(const Scene& scene, const Settings& settings) {
+PrunedScene pruneScene(const Scene& scene, const Settings& settings, TexelFacts* texels) {
   if (settings.keepAllFeatures) return unprunedScene(scene);
   PrunedScene pruned;
   pruned.sharesSlots = true;
@@ -226,8 +224,10 @@ PrunedScene pruneScene(const Scene& scene, const Settings& settings) {
   std::vector<Material> read;
   read.reserve(scene.materials.size());
   for (const Material& m : scene.materials) read.push_back(asRead(m, settings));
-  shareImages(scene, used, read, pruned.pruning);
-  dropNeedlessAlpha(scene, used, read, pruned.pruning);
+  TexelFacts own;
+  TexelFacts& known = texels ? *texels : own;
+  shareImages(scene, used, read, known, pruned.pruning);
+  dropNeedlessAlpha(scene, used, read, known, pruned.pruning);
   keepMaterials(used, read, pruned);
   keepImages(scene.images.size(), pruned);
   keepLights(scene, pruned);

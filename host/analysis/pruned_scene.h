@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "analysis/duplicate_images.h"
 #include "analysis/pruning_report.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -35,6 +36,7 @@ struct PrunedScene {
 PrunedScene unprunedScene(const Scene& scene);
 
 /// Only what the picture needs; unprunedScene with settings.keepAllFeatures. Linear in the scene's size.
-PrunedScene pruneScene(const Scene& scene, const Settings& settings);
+/// `texels`: null, or what earlier calls found out about the same images, to which this one adds.
+PrunedScene pruneScene(const Scene& scene, const Settings& settings, TexelFacts* texels = nullptr);
 
 }  // namespace whittle

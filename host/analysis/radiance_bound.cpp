@@ -20,6 +20,7 @@
 #include <initializer_list>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "analysis/largest_biradiance.h"
 #include "kernels/shared/layout.h"
@@ -224,12 +225,19 @@ EndedThroughput endedThroughput(const EndedUnits& units) {
 }
 
 double biasBound(const Scene& scene, const Settings& settings, double endedPerSample) {
-  const bool counts = settings.bounces > 1;
+  return BiasBound(scene, settings)(endedPerSample);
+}
+
+double BiasBound::operator()(double endedPerSample) {
+  const bool counts = settings_.bounces > 1;
   if (endedPerSample == 0.0 && counts) return 0;
-  const std::vector<Surface> surfaces = surfacesOf(scene, settings);
-  const glm::dvec3 bound = boundOf(surfaces, largestBackground(scene.background));
-  glm::dvec3 lost = counts ? glm::dvec3(0) : largestImpulses(surfaces, bound);
-  for (int c = 0; c < 3; ++c) lost[c] += times(endedPerSample, bound[c]);
+  if (!std::exchange(isKnown_, true)) {
+    const std::vector<Surface> surfaces = surfacesOf(scene_, settings_);
+    bound_ = boundOf(surfaces, largestBackground(scene_.background));
+    if (!counts) impulses_ = largestImpulses(surfaces, bound_);
+  }
+  glm::dvec3 lost = impulses_;
+  for (int c = 0; c < 3; ++c) lost[c] += times(endedPerSample, bound_[c]);
   return std::max(lost.x, std::max(lost.y, lost.z));
 }
 

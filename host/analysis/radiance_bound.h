@@ -37,6 +37,20 @@ glm::dvec3 radianceBound(const Scene& scene, const Settings& settings);
 /// ImpulseMode::One it bounds the expected radiance, about which the choices scatter.
 double biasBound(const Scene& scene, const Settings& settings, double endedPerSample);
 
+/// The same for picture after picture of one scene, which is gone through once, when it is first needed.
+class BiasBound {
+ public:
+  /// Refers to both.
+  BiasBound(const Scene& scene, const Settings& settings) : scene_(scene), settings_(settings) {}
+  double operator()(double endedPerSample);
+
+ private:
+  const Scene& scene_;
+  const Settings& settings_;
+  bool isKnown_ = false;
+  glm::dvec3 bound_{0}, impulses_{0};  ///< of a ray; what impulses may bring, where they are not counted
+};
+
 /// The mean of a picture in its brightest channel, W/(m² sr): what biasBound bounds a change of.
 double meanRadiance(const FloatImage& radiance);
 

@@ -4,6 +4,7 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
@@ -129,6 +130,21 @@ DeviceInfo selectDevice(const DeviceList& list, const std::string& selector) {
   if (!found->usable)
     throw std::invalid_argument("--device: " + found->name + " cannot be used: " + found->reason);
   return *found;
+}
+
+DeviceInfo withThreads(DeviceInfo info, int threads) {
+  if (threads <= 0 || info.kind != "cpu" || static_cast<unsigned>(threads) >= info.computeUnits) return info;
+  return clTry("dividing " + info.name, [&] {
+    const auto ways = info.device.getInfo<CL_DEVICE_PARTITION_PROPERTIES>();
+    if (std::find(ways.begin(), ways.end(), CL_DEVICE_PARTITION_BY_COUNTS) == ways.end()) return info;
+    const std::array<cl_device_partition_property, 4> wanted{CL_DEVICE_PARTITION_BY_COUNTS, threads,
+                                                             CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+    std::vector<cl::Device> parts;
+    info.device.createSubDevices(wanted.data(), &parts);
+    info.device = parts.at(0);
+    info.computeUnits = static_cast<unsigned>(threads);
+    return info;
+  });
 }
 
 void prepareCpuThreads(int threads, int workGroup) {

@@ -39,9 +39,13 @@ DeviceList listDevices();
 /// usable. Throws InputError-like std::invalid_argument with one line if there is none.
 DeviceInfo selectDevice(const DeviceList& list, const std::string& selector);
 
-/// Before the first OpenCL call of the process: limits PoCL to `threads` CPU threads (0: no limit), and gives
-/// every thread that is started from now on a stack on which work-groups of `workGroup` items (0: of the
-/// default size) find room.
+/// Of a CPU's device with more than `threads` (> 0) compute units a part that has as many, where its driver
+/// divides it; else the device as it is. Throws ClError.
+DeviceInfo withThreads(DeviceInfo device, int threads);
+
+/// Before the first OpenCL call of the process: limits PoCL to `threads` CPU threads (0: no limit), which
+/// withThreads can lower later, and gives every thread that is started from now on a stack on which
+/// work-groups of `workGroup` items (0: of the default size) find room.
 void prepareCpuThreads(int threads, int workGroup);
 
 }  // namespace whittle

@@ -59,7 +59,7 @@ constexpr std::array kRows{
     Row{"wavefront", "Device", "wavefront, rays", Kind::Whole},
     Row{"work-group", "Device", "work-group", Kind::Whole},
     Row{"device", "Device", "device", Kind::Choice},
-    Row{"threads", "Device", "threads", Kind::Whole, "threads: of PoCL from the next start"},
+    Row{"threads", "Device", "threads", Kind::Whole, "more than cores: from the next start"},
 };
 
 /// The command line with nothing but these options, bound to settings of its own.

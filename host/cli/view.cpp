@@ -1,10 +1,12 @@
 // whittle view: a scene in a window, with every setting and statistic of a render.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <mutex>
 #include <sstream>
+#include <thread>
 
 #include "cl/device.h"
 #include "cl/kernel_cache.h"
@@ -64,8 +66,7 @@ class Sources {
 
   /// `file`: a scene, an environment, or empty: all as before.
   Scene load(const fs::path& file, Settings& settings, std::vector<std::string>& notes) {
-    const std::lock_guard lock(mutex_);
-    SceneOptions options = options_;
+    SceneOptions options = currentOptions();  // the window asks about pictures while a scene is read
     if (isEnvironment(file))
       options.background = file.string();
     else if (!file.empty())
@@ -74,9 +75,10 @@ class Sources {
     Notices notices;
     MemoryBudget budget = budgetOf(options);
     Scene scene = loadScene(options, kCosts, settings, budget, notices);
-    options.quiet = options_.quiet;
     options.crop.reset();  // from now on the window's
-    options_ = options;    // what could not be read is not asked for again
+    const std::lock_guard lock(mutex_);
+    options.quiet = options_.quiet;
+    options_ = options;  // what could not be read is not asked for again
     allowedPicture_ = pictureBytes(settings);
     notes = notices.warnings;
     notes.insert(notes.end(), notices.notes.begin(), notices.notes.end());
@@ -110,6 +112,10 @@ class Sources {
  private:
   static constexpr CommandCosts kCosts{kTriangleBytes, kRuntimeBytes, pictureBytes};
 
+  SceneOptions currentOptions() {
+    const std::lock_guard lock(mutex_);
+    return options_;
+  }
   static bool isEnvironment(const fs::path& file) {
     return file.extension() == ".hdr" || file.extension() == ".exr";
   }
@@ -172,7 +178,9 @@ int runView(ViewOptions& o) {
   std::optional<view::Script> script;
   if (!o.script.empty()) script = readScript(o.script);
   warnIfAny(settleKernelCache());
-  prepareCpuThreads(o.settings.threads, o.settings.workGroup);
+  // As many as there are: the setting takes a part of them.
+  prepareCpuThreads(std::max(o.settings.threads, static_cast<int>(std::thread::hardware_concurrency())),
+                    o.settings.workGroup);
   loadImageCodec();
 
   auto sources = std::make_shared<Sources>(o.scene);
@@ -220,7 +228,10 @@ int runView(ViewOptions& o) {
       o.scene.file.empty() ? "Whittle" : fmt::format("{} – Whittle", o.scene.file.filename().string());
   window.isLight = o.isLight;
   window.uiScale = o.uiScale;
-  window.print = [](const std::string& line) { tell(line + "\n"); };
+  window.print = [](const std::string& line) {
+    tell(line + "\n");
+    finishOutput();  // whoever drives the script may wait for it
+  };
   window.writeCodes = [](const fs::path& file, int width, int height,
                          const std::vector<std::uint8_t>& codes) {
     writeCodes(file, {width, height, 4, codes}, {});

@@ -15,17 +15,31 @@ namespace {
 /// Share of the removed excess that fades towards white; Khronos' value.
 constexpr double kFade = 0.15;
 
-using CodeBorders = std::array<double, 255>;
+/// Where codes begin, and a table that is entered with a value and leads to a code at most a few below its
+/// own.
+struct CodeBorders {
+  static constexpr int kCells = 1 << 12;
+  std::array<double, 255>
+      borders{};  ///< [i] the linear value half way (in code space) between code i and i + 1
+  std::array<std::uint8_t, kCells + 1> first{};  ///< [k] the code of k / kCells
+};
 
-/// border[i]: the linear value half way (in code space) between code i and i + 1.
 CodeBorders makeBorders() {
-  CodeBorders borders{};
-  for (int i = 0; i < 255; ++i) borders[i] = srgbDecode((i + 0.5) / 255.0);
-  return borders;
+  CodeBorders b;
+  for (int i = 0; i < 255; ++i) b.borders[i] = srgbDecode((i + 0.5) / 255.0);
+  int code = 0;
+  for (int k = 0; k <= CodeBorders::kCells; ++k) {
+    while (code < 255 && b.borders[code] <= static_cast<double>(k) / CodeBorders::kCells) ++code;
+    b.first[k] = static_cast<std::uint8_t>(code);
+  }
+  return b;
 }
 
-std::uint8_t encodeByte(const CodeBorders& borders, double v) {
-  return static_cast<std::uint8_t>(std::upper_bound(borders.begin(), borders.end(), v) - borders.begin());
+/// v in [0, 1].
+std::uint8_t encodeByte(const CodeBorders& b, double v) {
+  std::uint8_t code = b.first[static_cast<std::size_t>(v * CodeBorders::kCells)];
+  while (code < 255 && b.borders[code] <= v) ++code;
+  return code;
 }
 
 /// Writes one pixel; false if it was not finite.
@@ -77,16 +91,19 @@ float fittingExposure(const FloatImage& image) {
     if (std::isfinite(v) && v > 0) luminance.push_back(v);
   }
   if (luminance.empty()) return 0;
-  std::sort(luminance.begin(), luminance.end());
   constexpr double kDark = 1e-6;
-  const auto first = std::lower_bound(luminance.begin(), luminance.end(), kDark * luminance.back());
+  const double dark = kDark * *std::max_element(luminance.begin(), luminance.end());
+  const auto first =
+      std::partition(luminance.begin(), luminance.end(), [dark](double v) { return v < dark; });
   const auto count = static_cast<double>(luminance.end() - first);
   double logs = 0, burnt = 0;
   for (auto v = first; v != luminance.end(); ++v) logs += std::log2(*v), burnt += *v > 1 ? 1 : 0;
   const double middle = logs / count;                                          // stops
   constexpr double kLeast = -5.643856189774724, kWanted = -2.473931188332412;  // log2 of 1/50 and of 0.18
   if (middle >= kLeast && middle <= 0 && burnt <= 0.25 * count) return 0;
-  const double bright = std::log2(*(first + static_cast<std::ptrdiff_t>(0.98 * (count - 1))));
+  const auto brightest = first + static_cast<std::ptrdiff_t>(0.98 * (count - 1));
+  std::nth_element(first, brightest, luminance.end());
+  const double bright = std::log2(*brightest);
   const double stops = std::min(kWanted - middle, 1 - bright);
   return static_cast<float>(std::clamp(std::round(10 * stops) / 10, -60.0, 60.0));
 }

@@ -1,8 +1,6 @@
 // See describe.h.
 #include "render/describe.h"
 
-#include "analysis/radiance_bound.h"
-
 namespace whittle {
 
 void describeScene(Stats& stats, const Scene& scene) {
@@ -31,15 +29,14 @@ void describeDecisions(Stats& stats, const Decisions& decisions) {
   stats.pruning = decisions.pruned.pruning;
 }
 
-void describeRays(Stats& stats, const Scene& scene, const Settings& settings, Wavefront& wavefront,
-                  const SamplingLoop& loop) {
+void describeRays(Stats& stats, BiasBound& bias, Wavefront& wavefront, const SamplingLoop& loop) {
   const RayTally& t = wavefront.tally();
   stats.rays = {t.primary, t.impulse, t.shadow};
   stats.dropped = t.produced - t.finished;
   stats.samples = {loop.counts().least(), loop.counts().most(), loop.counts().mean()};
   stats.error = loop.error();
   stats.ended = endedThroughput(t.ended);
-  stats.biasBound = biasBound(scene, settings, loop.endedPerSample());
+  stats.biasBound = bias(loop.endedPerSample());
   stats.nonFinite = wavefront.nonFinite();
 }
 

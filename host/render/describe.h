@@ -1,6 +1,7 @@
 // What each part of a render contributes to its statistics.
 #pragma once
 
+#include "analysis/radiance_bound.h"
 #include "cl/device.h"
 #include "render/preparation.h"
 #include "render/sampling_loop.h"
@@ -17,7 +18,6 @@ void describeDevice(Stats& stats, const DeviceInfo& device, int threads);
 /// Search, features and what was pruned.
 void describeDecisions(Stats& stats, const Decisions& decisions);
 /// Counts, samples, error, and what ended. Reads a counter of the device.
-void describeRays(Stats& stats, const Scene& scene, const Settings& settings, Wavefront& wavefront,
-                  const SamplingLoop& loop);
+void describeRays(Stats& stats, BiasBound& bias, Wavefront& wavefront, const SamplingLoop& loop);
 
 }  // namespace whittle

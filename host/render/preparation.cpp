@@ -39,14 +39,21 @@ void checkSettings(const Settings& s) {
 }
 
 Compute openDevice(const Settings& settings, Compute::Memory memory, Compute::Launches launches) {
-  prepareCpuThreads(settings.threads, settings.workGroup);
-  return Compute(selectDevice(listDevices(), settings.device), memory, launches);
+  // The environment is left alone: the platform has read it, or another thread may.
+  prepareCpuThreads(0, settings.workGroup);
+  return Compute(withThreads(selectDevice(listDevices(), settings.device), settings.threads), memory,
+                 launches);
 }
 
-Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo& device) {
+std::unique_ptr<tbb::global_control> limitThreads(int threads) {
+  if (threads <= 0) return nullptr;
+  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+}
+
+Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo& device, TexelFacts* texels) {
   Decisions d;
   d.camera = findCamera(scene, settings.camera);
-  d.pruned = pruneScene(scene, settings);
+  d.pruned = pruneScene(scene, settings, texels);
   d.features = SceneFeatures::analyse(scene, d.pruned, settings, {device.suitsPackets()});
   d.compactChunk = defaultCompactChunk(device);
   d.workGroup = settings.workGroup > 0 ? settings.workGroup : defaultWorkGroup(d.features);

@@ -2,7 +2,10 @@
 // the picture, allocate the scene. A render runs them all, planRender without taking any memory.
 #pragma once
 
+#include <tbb/global_control.h>
+
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "analysis/scene_features.h"
@@ -22,6 +25,10 @@ void checkSettings(const Settings& settings);
 /// The device that the settings ask for. Throws ClError or std::invalid_argument.
 Compute openDevice(const Settings& settings, Compute::Memory memory, Compute::Launches launches);
 
+/// For as long as it is kept: the tree builder and whatever else runs on the host's threads has so many at
+/// most. Null: all there are.
+std::unique_ptr<tbb::global_control> limitThreads(int threads);
+
 /// What is settled before anything is allocated.
 struct Decisions {
   std::size_t camera = 0;  ///< of Scene::cameras
@@ -30,8 +37,9 @@ struct Decisions {
   std::uint32_t compactChunk = 0;
   int workGroup = 0;
 };
-/// Throws InputError: no such camera, a work-group that the device cannot have.
-Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo& device);
+/// Throws InputError: no such camera, a work-group that the device cannot have. `texels`: see pruneScene.
+Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo& device,
+                 TexelFacts* texels = nullptr);
 
 /// What is traced of the picture, on the device, and the order of its pixels.
 struct PictureBuffers {

@@ -1,8 +1,6 @@
 // A render, phase by phase: each takes what those before it returned, or what an earlier render left.
 #include "render/render_session.h"
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <future>
 
@@ -122,6 +120,7 @@ struct RenderSession::State {
   Kept<PictureBuffers, PictureKey> picture;
   Kept<DeviceScene, SceneKey> scene;
   Kept<RayQueues, QueueKey> queues;
+  TexelFacts texels;  ///< of the scene's images
   RenderWork work;
 
   /// What lives on the device.
@@ -144,6 +143,7 @@ void RenderWork::add(const RenderWork& other) {
   device |= other.device;
   programs += other.programs;
   scene |= other.scene;
+  texelReads += other.texelReads;
   tables.lights |= other.tables.lights;
   tables.materials |= other.tables.materials;
   tables.textures |= other.tables.textures;
@@ -157,7 +157,10 @@ RenderSession::~RenderSession() = default;
 RenderSession::RenderSession(RenderSession&&) noexcept = default;
 RenderSession& RenderSession::operator=(RenderSession&&) noexcept = default;
 
-void RenderSession::sceneChanged() { state_->scene.value.reset(); }
+void RenderSession::sceneChanged() {
+  state_->scene.value.reset();
+  state_->texels = {};
+}
 
 void RenderSession::close() {
   state_->dropBuffers();
@@ -244,8 +247,10 @@ RenderSession::State::Prepared RenderSession::State::prepare(const Scene& from, 
   const auto opening = Clock::now();
   OpenDevice& open = openFor(settings, hooks);
   log.end("open the device", opening);
-  Decisions decisions =
-      log.time("decide what is needed", [&] { return decide(from, settings, open.compute.device()); });
+  const std::size_t readBefore = texels.reads;
+  Decisions decisions = log.time("decide what is needed",
+                                 [&] { return decide(from, settings, open.compute.device(), &texels); });
+  work.texelReads = texels.reads - readBefore;
 
   say(hooks, "compiling kernels");
   const auto compiling = Clock::now();
@@ -286,12 +291,6 @@ StageRunner runnerOf(Compute& compute, const std::vector<cl::Program>& programs,
           queues.entryBytes()};
 }
 
-/// For the tree builder and whatever else runs on the host's threads.
-std::unique_ptr<tbb::global_control> limitThreads(int threads) {
-  if (threads <= 0) return nullptr;
-  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
-}
-
 }  // namespace
 
 RenderResult RenderSession::render(const Scene& scene, const Settings& settings, const RenderHooks& hooks) {
@@ -316,6 +315,7 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
   SamplingLoop loop(compute, wavefront, settings, hooks,
                     FilmBuffers{tracedRegion(settings).pixels(), picture.order, picture.film,
                                 picture.passOrder, picture.passBlocks});
+  BiasBound bias(scene, settings);
   const auto resultSoFar = [&] {
     RenderResult result{loop.picture(), {}, readAovs(compute, settings, picture, loop, recorder), {}};
     if (settings.alpha) result.alpha = loop.alpha();
@@ -324,7 +324,7 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
     stats.settings = settingsInEffect(settings, decisions, *kept.queues.value);
     describeDevice(stats, compute.device(), settings.threads);
     describeDecisions(stats, decisions);
-    describeRays(stats, scene, settings, wavefront, loop);
+    describeRays(stats, bias, wavefront, loop);
     stats.meanRadiance = meanRadiance(result.radiance);
     stats.stages = stages.stats();
     stats.bounces = stages.statsByBounce();

@@ -13,12 +13,13 @@ namespace whittle {
 
 /// What the last render could not take over from the one before.
 struct RenderWork {
-  bool device = false;   ///< opened
-  int programs = 0;      ///< compiled, or loaded from the platform's cache
-  bool scene = false;    ///< the tree built and the scene uploaded
-  TableChanges tables;   ///< uploaded though the scene was not
-  bool queues = false;   ///< allocated
-  bool picture = false;  ///< allocated
+  bool device = false;         ///< opened
+  int programs = 0;            ///< compiled, or loaded from the platform's cache
+  bool scene = false;          ///< the tree built and the scene uploaded
+  TableChanges tables;         ///< uploaded though the scene was not
+  std::size_t texelReads = 0;  ///< how often the analysis went through the texels of an image
+  bool queues = false;         ///< allocated
+  bool picture = false;        ///< allocated
 
   /// Of two renders.
   void add(const RenderWork& other);

@@ -46,7 +46,8 @@ struct RenderHooks {
   std::function<void(const std::string&)> note;         ///< what the user should know meanwhile; may be empty
   /// Asked between launches; false: the render ends, and the result holds what there is. May be empty.
   std::function<bool()> keepGoing;
-  /// Gets the picture so far after each pass; passes then double the samples. May be empty.
+  /// Gets the picture so far after each pass but the last, which is the result; passes then multiply the
+  /// samples. May be empty.
   std::function<void(RenderResult)> shown;
   /// Looks from here in the place of Settings::camera, which says what is compiled: a camera that is
   /// orthographic, or has a near plane that cuts, needs those features kept. Null: the scene's.

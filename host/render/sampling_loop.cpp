@@ -54,8 +54,8 @@ bool SamplingLoop::looks() const {
 
 void SamplingLoop::run(const std::function<void()>& passDone) {
   start_ = Clock::now();
-  bool stopped = false;
-  for (auto passes = nextPasses(); !passes.empty(); passes = nextPasses()) {
+  for (auto passes = nextPasses(); !passes.empty();) {
+    bool stopped = false;
     const double began = elapsed();
     for (const SamplePass& pass : passes) {
       stopped = !tracePass(pass);
@@ -63,8 +63,9 @@ void SamplingLoop::run(const std::function<void()>& passDone) {
     }
     if (passes.size() == 1) passSamples_ = passes.front().samples, passSeconds_ = elapsed() - began;
     if (looks()) look();
-    if (!stopped) passDone();
     if (stopped || (!error_.empty() && meetsTarget(settings_, error_.back()))) break;
+    passes = nextPasses();
+    if (!passes.empty()) passDone();
   }
   clTry("waiting for the last kernels", [&] { compute_.queue().finish(); });
   seconds_ = elapsed();

@@ -31,7 +31,7 @@ class SamplingLoop {
 
   /// Renders. Each pixel gets its first sample whatever the time limit; after that nothing goes on for longer
   /// than a tenth of it, or a quarter of a second.
-  /// `passDone`: called after each pass.
+  /// `passDone`: called after each pass that another follows.
   void run(const std::function<void()>& passDone);
 
   const SampleCounts& counts() const { return counts_; }

@@ -9,6 +9,9 @@
 namespace whittle::view {
 namespace {
 
+/// What the thread does; reading before comparing.
+enum class Kind : std::uint8_t { Read, Compare };
+
 /// Linear light, RGB, of RGBA codes.
 FloatImage lightOfCodes(const std::vector<std::uint8_t>& codes, int width, int height) {
   std::array<float, 256> light{};
@@ -43,31 +46,15 @@ Lights lightsOf(const Comparable& c, const std::vector<std::uint8_t>& referenceC
 }  // namespace
 
 LiveComparison::LiveComparison(std::function<void()> wake)
-    : wake_(std::move(wake)), thread_([this] { loop(); }) {}
+    : wake_(std::move(wake)), worker_(static_cast<std::size_t>(Kind::Compare) + 1) {}
 
-LiveComparison::~LiveComparison() {
-  {
-    const std::lock_guard lock(mutex_);
-    closing_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
-}
-
-void LiveComparison::open(std::function<Reference()> read) {
-  {
-    const std::lock_guard lock(mutex_);
-    toRead_ = std::move(read);
-  }
-  changed_.notify_all();
+void LiveComparison::open(std::function<Reference()> toRead) {
+  worker_.give([this, toRead = std::move(toRead)] { read(toRead); }, static_cast<std::size_t>(Kind::Read));
 }
 
 void LiveComparison::compare(Comparable pictures) {
-  {
-    const std::lock_guard lock(mutex_);
-    next_ = std::move(pictures);
-  }
-  changed_.notify_all();
+  worker_.give([this, pictures = std::move(pictures)] { work(pictures); },
+               static_cast<std::size_t>(Kind::Compare));
 }
 
 std::optional<LiveComparison::Opened> LiveComparison::takeOpened() {
@@ -78,11 +65,6 @@ std::optional<LiveComparison::Opened> LiveComparison::takeOpened() {
 std::optional<Compared> LiveComparison::takeCompared() {
   const std::lock_guard lock(mutex_);
   return std::exchange(compared_, std::nullopt);
-}
-
-bool LiveComparison::hasNewer() const {
-  const std::lock_guard lock(mutex_);
-  return closing_ || toRead_ || next_;
 }
 
 void LiveComparison::publish(const Compared& compared) {
@@ -119,27 +101,9 @@ void LiveComparison::work(const Comparable& c) {
   compared.scale = scaleOf(errors);
   compared.differenceCodes = errorCodes(errors, compared.scale);
   publish(compared);
-  if (hasNewer()) return;  // FLIP takes long
+  if (worker_.hasNewer()) return;  // FLIP takes long
   compared.figures = compareImages(lights.picture, lights.reference, lights.shown, lights.shown);
   publish(compared);
-}
-
-void LiveComparison::loop() {
-  for (;;) {
-    std::function<Reference()> toRead;
-    std::optional<Comparable> pictures;
-    {
-      std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return closing_ || toRead_ || next_; });
-      if (closing_) return;
-      toRead = std::exchange(toRead_, nullptr);
-      if (!toRead) pictures = std::exchange(next_, std::nullopt);
-    }
-    if (toRead)
-      read(toRead);
-    else
-      work(*pictures);
-  }
 }
 
 }  // namespace whittle::view

@@ -1,17 +1,16 @@
 // Compares, on a thread of its own, the newest picture with a reference. Whoever asks never waits.
 #pragma once
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "image/metrics.h"
 #include "render/renderer.h"
 #include "view/difference.h"
+#include "view/newest_worker.h"
 
 namespace whittle::view {
 
@@ -44,9 +43,6 @@ class LiveComparison {
  public:
   /// `wake` is called from the other thread whenever there is something new.
   explicit LiveComparison(std::function<void()> wake);
-  ~LiveComparison();
-  LiveComparison(const LiveComparison&) = delete;
-  LiveComparison& operator=(const LiveComparison&) = delete;
 
   /// Reads a reference there; what it throws becomes the problem.
   void open(std::function<Reference()> read);
@@ -62,21 +58,15 @@ class LiveComparison {
   std::optional<Compared> takeCompared();
 
  private:
-  void loop();
   void read(const std::function<Reference()>& read);
   void work(const Comparable& pictures);
   void publish(const Compared& compared);
-  bool hasNewer() const;
 
   std::function<void()> wake_;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::function<Reference()> toRead_;
-  std::optional<Comparable> next_;
+  std::mutex mutex_;
   std::optional<Opened> opened_;
   std::optional<Compared> compared_;
-  bool closing_ = false;
-  std::thread thread_;  ///< last: it uses all of the above
+  NewestWorker worker_;  ///< last: its thread uses all of the above
 };
 
 }  // namespace whittle::view

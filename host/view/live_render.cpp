@@ -121,13 +121,20 @@ void LiveRender::fail(const std::string& text) {
 }
 
 void LiveRender::show(RenderResult result, std::uint64_t number, bool coarse, bool finished) {
+  std::shared_ptr<const RenderResult> region, whole;
+  if (rendering_.crop) {
+    region = std::make_shared<const RenderResult>(std::move(result));
+    whole = std::make_shared<const RenderResult>(withRegion(whole_.get(), *region, rendering_));
+  } else {
+    whole = std::make_shared<const RenderResult>(std::move(result));
+  }
   {
     const std::lock_guard lock(mutex_);
     // A stopped request's last pass may lack samples of some pixels.
     if (number != asked_) return;
-    if (shown_.request != number) progress_.firstSeconds = since(askedAt_);
-    shown_ = {std::make_shared<const RenderResult>(std::move(result)), number, rendering_, coarse, finished};
+    shown_ = {whole, region, number, rendering_, coarse, finished};
   }
+  whole_ = std::move(whole);
   wake_();
 }
 
@@ -158,6 +165,7 @@ RenderHooks LiveRender::hooksFor(std::uint64_t number, bool coarse) {
 void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
   take(request);
   rendering_ = request.settings;
+  if (std::exchange(album_, request.album) != request.album) whole_.reset();
   const Scene& scene = *request.scene;
   Settings settings = request.settings;
   settings.keepFeatures |= kOfCamera;
@@ -170,13 +178,14 @@ void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
     // The sampler of the full picture, so that nothing else is compiled, but its first pass alone.
     RenderHooks hooks = hooksFor(number, true);
     hooks.camera = &request.camera;
-    bool hasAll = false;
-    hooks.shown = [&](RenderResult result) {
-      if (!hasAll && isWanted(number)) show(std::move(result), number, true, false);
-      hasAll = true;
+    bool hasFirst = false;
+    const auto showFirst = [&](RenderResult result) {
+      if (!hasFirst && isWanted(number)) show(std::move(result), number, true, false);
+      hasFirst = true;
     };
-    hooks.keepGoing = [&] { return !hasAll && isWanted(number); };
-    session_.render(scene, coarse, hooks);
+    hooks.shown = showFirst;
+    hooks.keepGoing = [&] { return !hasFirst && isWanted(number); };
+    showFirst(session_.render(scene, coarse, hooks));  // where one pass was all
     work = session_.work();
   }
   if (!isWanted(number)) return;

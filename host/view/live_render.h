@@ -29,10 +29,13 @@ struct Request {
   Settings settings;
   /// First a picture of a quarter of the width and height, with one sample for each pixel.
   bool coarseFirst = false;
+  /// With a region the rest of the picture is of what was shown before for the same album.
+  std::uint64_t album = 0;
 };
 
 struct Shown {
-  std::shared_ptr<const RenderResult> result;  ///< null: nothing yet
+  std::shared_ptr<const RenderResult> result;  ///< null: nothing yet; with a region in the picture before
+  std::shared_ptr<const RenderResult> region;  ///< that region alone; null: none was asked for
   std::uint64_t request = 0;                   ///< the one that it answers
   Settings asked;                              ///< that one's
   bool coarse = false;
@@ -40,12 +43,11 @@ struct Shown {
 };
 
 struct Progress {
-  std::string doing;        ///< "compiling kernels", …; empty: nothing is being done
-  double share = -1;        ///< of the rays, in [0, 1]; negative: unknown
-  double seconds = 0;       ///< since the request
-  std::string error;        ///< why the last request has no (full) picture, in one line
-  RenderWork work;          ///< of the last picture that was finished
-  double firstSeconds = 0;  ///< from the last request to its first picture
+  std::string doing;   ///< "compiling kernels", …; empty: nothing is being done
+  double share = -1;   ///< of the rays, in [0, 1]; negative: unknown
+  double seconds = 0;  ///< since the request
+  std::string error;   ///< why the last request has no (full) picture, in one line
+  RenderWork work;     ///< of the last picture that was finished
 };
 
 class LiveRender {
@@ -89,9 +91,12 @@ class LiveRender {
   std::function<void()> wake_;
   std::filesystem::path compiler_;
   std::optional<std::filesystem::path> kernelFolder_;
-  RenderSession session_;                  ///< of the thread alone
-  Settings rendering_;                     ///< of the request under way; of the thread alone
-  std::shared_ptr<const Scene> onDevice_;  ///< of the thread alone
+  // Of the thread alone:
+  RenderSession session_;
+  Settings rendering_;       ///< of the request under way
+  std::uint64_t album_ = 0;  ///< the same
+  std::shared_ptr<const Scene> onDevice_;
+  std::shared_ptr<const RenderResult> whole_;  ///< what was shown last for that album; null: nothing
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

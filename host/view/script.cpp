@@ -148,9 +148,9 @@ bool Script::perform(Stage& stage, const Command& command) {
     if (w[0] == "drop") stage.drop(w[1]);
     if (w[0] == "save-scene") stage.saveScene(w[1]);
     if (w[0] == "compare") stage.set("reference", w[1]);  // what is wrong with it is a message
-    // One frame later all of the last one is drawn.
+    // One frame later all of the last one is drawn; codes come from another thread.
     if (w[0] == "screenshot") {
-      if (frame_ < 2) return false;
+      if (frame_ < 2 || !stage.showsNewest()) return false;
       stage.screenshot(w[1]);
     }
     if (w[0] == "expect") expect(stage, command);

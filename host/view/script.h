@@ -44,6 +44,8 @@ class Stage {
   virtual void saveScene(const std::filesystem::path& file) = 0;                ///< as EditModel::save
   virtual bool hasPicture() const = 0;  ///< of what was asked for last, coarse or not
   virtual bool isFinished() const = 0;
+  /// Nothing that is known is still on its way to the window.
+  virtual bool showsNewest() const = 0;
   virtual std::string stateJson() const = 0;
   virtual void print(const std::string& text) = 0;
   virtual double now() const = 0;  ///< seconds

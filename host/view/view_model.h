@@ -40,7 +40,7 @@ struct Control {
   std::vector<std::string> captions;  ///< what a Choice shows for each of its words, where it is another text
   std::string standard;               ///< the default
   std::string tip;                    ///< the option's help
-  std::string remark;                 ///< "at the next start", or empty
+  std::string remark;                 ///< when it takes effect, or empty
 };
 
 /// Codes as `whittle render` writes them into a .png of the same settings.
@@ -88,6 +88,8 @@ class ViewModel {
   virtual bool isFinished() const = 0;
   /// It is of what was asked for last, coarse or not.
   virtual bool hasPicture() const = 0;
+  /// Its codes are of the newest result and of exposure, tone map and layer as they are set.
+  virtual bool hasNewestCodes() const = 0;
   /// Lines for the user: notes of loading, what was written, what went wrong; the newest last.
   struct Message {
     bool isError = false;

@@ -13,7 +13,6 @@
 #include "report/stats.h"
 #include "scene/input_error.h"
 #include "view/false_colors.h"
-#include "view/region_picture.h"
 
 namespace whittle::view {
 namespace {
@@ -115,7 +114,7 @@ void Viewer::settle(const Loaded& loaded) {
 void Viewer::takeOver(Loaded loaded) {
   if (!loaded.scene) {
     say(true, loaded.problem);
-    if (!isFinished()) ask();  // what was under way goes on
+    if (!isTraced()) ask();  // what was under way goes on
     return;
   }
   const bool isFirst = !scene_, isSameFile = scene_ && scene_->file == loaded.scene->file;
@@ -128,7 +127,7 @@ void Viewer::takeOver(Loaded loaded) {
   for (auto& text : loaded.notes) say(false, std::move(text));
   file_ = scene_->file;
   if (!loaded.keepsCamera) services_.recent.add(file_);
-  if (!loaded.keepsCamera) written_ = {}, whole_.reset();
+  if (!loaded.keepsCamera) written_ = {}, ++album_;
   if (isFirst || !loaded.keepsCamera) camera_ = held(scene_->cameras[findCamera(*scene_, settings_.camera)]);
   ask();
 }
@@ -138,7 +137,7 @@ Request Viewer::request() const {
   if (layer_ != kBeauty) askForAov(settings, layer_);
   if (settings.aperture > 0 && !settings.focusDistance)
     settings.focusDistance = focusOn(*scene_, camera_.camera(), aspect());
-  return {scene_, appearance_, camera_.camera(), settings, isMoving_};
+  return {scene_, appearance_, camera_.camera(), settings, isMoving_, album_};
 }
 
 void Viewer::ask(bool coarseFirst) {
@@ -147,6 +146,7 @@ void Viewer::ask(bool coarseFirst) {
   Request wanted = request();
   wanted.coarseFirst |= coarseFirst;
   request_ = live_.ask(std::move(wanted));
+  times_ = {std::chrono::steady_clock::now(), 0, 0, 0};
 }
 
 SceneEditor::Owner Viewer::owner() {
@@ -237,12 +237,7 @@ bool Viewer::update() {
     const auto& rays = explained_->tree.rays;
     if (!rays.empty() && rays[0].hit) editor_.choose(Part::Material, rays[0].hit->material);
   }
-  Shown shown = live_.shown();
-  if (shown.result != shown_.result || shown.finished != shown_.finished) {
-    takePicture(std::move(shown));
-    sayNeeds();
-    isNew = true;
-  }
+  isNew |= updatePicture();
   isNew |= comparison_.update(messages_);
   const std::string error = live_.progress().error;
   if (error != lastError_) {
@@ -252,47 +247,6 @@ bool Viewer::update() {
   }
   return isNew;
 }
-
-void Viewer::takePicture(Shown shown) {
-  const bool isOther = shown.result != shown_.result;
-  shown_ = std::move(shown);
-  if (shown_.result && isOther)
-    whole_ =
-        shown_.asked.crop
-            ? std::make_shared<const RenderResult>(withRegion(whole_.get(), *shown_.result, shown_.asked))
-            : shown_.result;
-  if (isOther) makeCodes();
-}
-
-void Viewer::makeCodes() {
-  if (!whole_ || !scene_) return;
-  const FloatImage& radiance = whole_->radiance;
-  Settings exposed = settings_;
-  exposed.exposure = services_.stops(radiance, *scene_, settings_);
-  picture_.width = radiance.width;
-  picture_.height = radiance.height;
-  // The layers come with the first picture that is rendered for them.
-  FalseColors colors;
-  if (layer_ != kBeauty && whole_->aovs.contains(layer_))
-    colors = falseColors(*whole_, layer_);
-  else
-    colors.codes = services_.codes(radiance, *scene_, exposed);
-  picture_.codes = std::move(colors.codes);
-  picture_.scale = std::move(colors.scale);
-  picture_.coarse = shown_.coarse && !shown_.asked.crop;
-  ++picture_.serial;
-  if (!shown_.coarse)
-    comparison_.show(whole_, [codes = services_.codes, scene = scene_, exposed](const FloatImage& light) {
-      return codes(light, *scene, exposed);
-    });
-}
-
-void Viewer::keepReference() {
-  if (!whole_ || picture_.coarse) return say(true, "there is no picture yet");
-  comparison_.keep(whole_->radiance);
-}
-
-bool Viewer::isFinished() const { return shown_.finished && shown_.request == request_; }
 
 std::string Viewer::value(const std::string& id) const {
   if (id == kLayerControl) return layer_;
@@ -332,7 +286,7 @@ std::string Viewer::showLayer(const std::string& layer) {
   const auto& layers = services_.controls.front().words;
   if (std::find(layers.begin(), layers.end(), layer) == layers.end())
     return fmt::format("show: '{}' is not one of {}", layer, fmt::join(layers, "|"));
-  const bool isTraced = layer == kBeauty || (whole_ && whole_->aovs.contains(layer));
+  const bool isTraced = layer == kBeauty || (newest_.result && newest_.result->aovs.contains(layer));
   layer_ = layer;
   if (isTraced)
     makeCodes();
@@ -347,14 +301,14 @@ void Viewer::open(const std::filesystem::path& file) { load(file, false); }
 void Viewer::reload() { load({}, true); }
 
 void Viewer::save() {
-  if (!whole_ || !scene_ || shown_.coarse) return say(true, "there is no picture yet");
+  if (!shown_.result || !scene_ || shown_.coarse) return say(true, "there is no picture yet");
   // Around a region the picture is of other settings, or of none.
-  const bool isRegion = shown_.asked.crop.has_value();
   std::string name = file_.stem().string();
-  if (isRegion) name += "-crop-" + services_.value(shown_.asked, "crop");
+  if (shown_.region) name += "-crop-" + services_.value(shown_.asked, "crop");
   try {
-    const std::string wrote = services_.save(name, isRegion ? *shown_.result : *whole_, *scene_, settings_);
-    say(false, isRegion ? wrote + ": the region alone" : wrote);
+    const RenderResult& result = shown_.region ? *shown_.region : *shown_.result;
+    const std::string wrote = services_.save(name, result, *scene_, settings_);
+    say(false, shown_.region ? wrote + ": the region alone" : wrote);
   } catch (const std::exception& e) {
     say(true, e.what());
   }
@@ -368,13 +322,16 @@ std::string Viewer::stateJson() const {
                    {"coarse", shown_.coarse},
                    {"doing", p.doing},
                    {"error", p.error},
-                   {"firstSeconds", p.firstSeconds},
+                   {"firstSeconds", times_.first},
+                   {"fullSeconds", times_.full},
+                   {"refinedSeconds", times_.refined},
                    {"width", picture_.width},
                    {"height", picture_.height},
                    {"programs", p.work.programs},
                    {"scene", p.work.scene ? 1 : 0},
                    {"messages", messages_.size()},
                    {"message", messages_.empty() ? "" : messages_.back().text},
+                   {"texelReads", p.work.texelReads},
                    {"lights", p.work.tables.lights ? 1 : 0},
                    {"materials", p.work.tables.materials ? 1 : 0},
                    {"triangles", p.work.tables.triangles ? 1 : 0},

@@ -13,6 +13,7 @@
 #include "view/comparison.h"
 #include "view/hand_camera.h"
 #include "view/live_render.h"
+#include "view/newest_worker.h"
 #include "view/recent_files.h"
 #include "view/scene_editor.h"
 #include "view/view_model.h"
@@ -36,7 +37,7 @@ struct Services {
   std::function<Scene(const std::filesystem::path& file, Settings&, std::vector<std::string>& notes)> load;
   /// Throws InputError where a picture of these settings takes more memory than there is.
   std::function<void(const Settings&)> checkPicture;
-  /// Codes of a picture, RGBA.
+  /// Codes of a picture, RGBA. It and `stops` are called by other threads.
   std::function<std::vector<std::uint8_t>(const FloatImage&, const Scene&, const Settings&)> codes;
   /// The exposure of a picture in stops, chosen where the settings leave it open.
   std::function<float(const FloatImage&, const Scene&, const Settings&)> stops;
@@ -72,6 +73,7 @@ class Viewer : public ViewModel {
   Progress progress() const override { return live_.progress(); }
   bool isFinished() const override;
   bool hasPicture() const override { return shown_.result && shown_.request == request_; }
+  bool hasNewestCodes() const override { return codesMade_ == codesAsked_; }
   const std::vector<Message>& messages() const override { return messages_; }
   const std::vector<Control>& controls() const override { return services_.controls; }
   std::string value(const std::string& id) const override;
@@ -151,8 +153,20 @@ class Viewer : public ViewModel {
   double size() const;  ///< of the scene, metres
   glm::dvec3 middle() const;
   HandCamera held(const Camera& camera) const;
-  void takePicture(Shown shown);
+  /// Codes, fresh from their thread.
+  struct Made {
+    std::uint64_t number = 0;  ///< see codesAsked_
+    Shown shown;
+    std::shared_ptr<const Scene> scene;
+    Settings exposed;  ///< with the exposure that was chosen
+    Picture picture;
+    std::string problem;  ///< why there are none
+  };
+  bool isTraced() const { return newest_.finished && newest_.request == request_; }
+  bool updatePicture();
   void makeCodes();
+  void codesInto(Made& made, const std::string& layer) const;
+  void takePicture(Made made);
   void lookAtFile();
   std::string showLayer(const std::string& layer);
   std::string switchReference(const std::string& text);
@@ -170,12 +184,18 @@ class Viewer : public ViewModel {
   Bounds bounds_;  ///< of its triangles
   HandCamera camera_;
   bool isMoving_ = false;
-  Shown shown_;
-  /// What of it is seen: with a region the rest is of what was rendered before.
-  std::shared_ptr<const RenderResult> whole_;
+  Shown newest_;             ///< that the render's thread has
+  Shown shown_;              ///< whose codes are in picture_
+  std::uint64_t album_ = 0;  ///< grows with each file that is opened: see Request
   std::uint64_t request_ = 0;
+  /// Since the last request, seconds, until codes were there of its first picture, of the first that was not
+  /// coarse, of the last; 0: not yet.
+  struct Times {
+    std::chrono::steady_clock::time_point asked{};
+    double first = 0, full = 0, refined = 0;
+  } times_;
   Picture picture_;
-  std::string codesOf_;  ///< the exposure and tone map that the codes were made with
+  std::uint64_t codesAsked_ = 0, codesMade_ = 0;  ///< how often codes were asked for; which are there
   std::vector<Message> messages_;
   std::string lastError_;
   /// The scene's file, and when it was written as far as is known; an exporter that is still at it is waited
@@ -187,11 +207,14 @@ class Viewer : public ViewModel {
   bool comparesWithReference_ = false;
   std::uint64_t follows_ = 0;   ///< how often a pixel's rays were asked for
   std::uint64_t followed_ = 0;  ///< the time whose rays are still wanted; 0: none is
-  std::mutex mutex_;            ///< of loaded_ and delivered_
+  std::mutex mutex_;            ///< of loaded_, delivered_ and made_
   std::optional<Loaded> loaded_;
   std::optional<Followed> delivered_;
+  std::optional<Made> made_;
+  // Last: their threads use services_ and what mutex_ guards.
   Comparison comparison_;
-  LiveRender live_;  ///< last: its thread uses services_ and loaded_
+  NewestWorker coder_;
+  LiveRender live_;
 };
 
 }  // namespace whittle::view

@@ -19,7 +19,7 @@ void Viewer::explain(double x, double y) {
 void Viewer::follow(int x, int y) {
   const std::uint64_t number = ++follows_;
   Followed followed{number, request(), x, y, {}, {}};
-  const bool isDone = isFinished(), compares = comparesWithReference_;
+  const bool isDone = isTraced(), compares = comparesWithReference_;
   live_.explain(
       followed.request, x, y, [this, compares, followed](const std::vector<RayTree>& trees) mutable {
         followed.tree = trees.at(0);

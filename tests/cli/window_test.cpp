@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <sstream>
 #include <thread>
 
 #include "window_fixture.h"
@@ -130,6 +131,16 @@ TEST_F(WindowTest, SavesWhatItShows) {
   const Codes png = read("cornell_box-001.png");
   EXPECT_EQ(png.width, 160);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "cornell_box-001.exr"));
+}
+
+/// Rendering, codes, comparison, edits and reading at once: what the sanitizers run too (tests/README.md).
+TEST_F(WindowTest, EveryThreadAtWork) {
+  std::ifstream script(std::string(WHITTLE_SCENES) + "/../tests/view/every_thread.script");
+  std::stringstream text;
+  text << script.rdbuf();
+  ASSERT_FALSE(text.str().empty());
+  expectPlayed(text.str());
+  EXPECT_NE(read("first.png").bytes, read("last.png").bytes);
 }
 
 TEST_F(WindowTest, WithoutADisplayItSaysSo) {

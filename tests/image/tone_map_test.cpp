@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -105,6 +106,24 @@ TEST(ToneMap, WithoutRollOffEachCodeComesOutAsItWentIn) {
   const auto bytes = toneMap(grey(values), 0, nullptr, false);
   for (int i = 0; i < 256; ++i) EXPECT_EQ(bytes[3 * static_cast<std::size_t>(i)], i);
   EXPECT_EQ(toneMap(grey({7}), 0, nullptr, false)[0], 255);
+}
+
+/// Beside every border between two codes, and at it: as many borders as are not above the value.
+TEST(ToneMap, ACodeIsTheNumberOfBordersUpToTheValue) {
+  std::vector<double> borders;
+  for (int i = 0; i < 255; ++i) borders.push_back(srgbDecode((i + 0.5) / 255.0));
+  FloatImage image{255 * 3, 1, 1, {}};
+  for (const double border : borders) {
+    const auto at = static_cast<float>(border);
+    for (const float v : {std::nextafter(at, 0.0F), at, std::nextafter(at, 1.0F)}) image.pixels.push_back(v);
+  }
+  const auto codes = toneMap(image, 0, nullptr, false);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const auto expected = std::count_if(borders.begin(), borders.end(), [&](double border) {
+      return border <= static_cast<double>(image.pixels[i]);
+    });
+    EXPECT_EQ(codes[3 * i], expected) << image.pixels[i];
+  }
 }
 
 }  // namespace

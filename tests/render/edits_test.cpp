@@ -139,5 +139,38 @@ TEST(Edits, TheBackgroundUploadsNothing) {
   EXPECT_EQ(s.work().programs, 0);
 }
 
+/// Images of one size with texels of their own, so that they have to be told apart.
+TEST(Edits, TexelsAreReadForTheFirstPictureAlone) {
+  Scene scene = ownScene("textured");
+  ASSERT_FALSE(scene.images.empty());
+  Image twin = scene.images[0];
+  twin.texels[0] ^= 1U;
+  scene.images.push_back(twin);
+  for (Material& m : scene.materials)
+    if (m.emissionTexture.image < 0 && m.baseColorTexture.image == 0) {
+      m.emissionTexture = m.baseColorTexture;
+      m.emissionTexture.image = static_cast<int>(scene.images.size()) - 1;
+      m.emission = glm::vec3(0.1F);
+    }
+  RenderSession session;
+  session.render(scene, editSettings(), testHooks());
+  EXPECT_GE(session.work().texelReads, 2U) << "the twins";
+  Appearance appearance = appearanceOf(scene);
+  appearance.lights[0].intensity *= 2.0F;
+  appearance.materials[0].roughness = 0.4F;
+  setAppearance(appearance, scene);
+  session.render(scene, editSettings(), testHooks());
+  EXPECT_EQ(session.work().texelReads, 0U) << "after an edit";
+  Camera camera = scene.cameras[0];
+  camera.position += glm::vec3(0.1F);
+  RenderHooks hooks = testHooks();
+  hooks.camera = &camera;
+  session.render(scene, editSettings(), hooks);
+  EXPECT_EQ(session.work().texelReads, 0U) << "after a move";
+  session.sceneChanged();
+  session.render(scene, editSettings(), testHooks());
+  EXPECT_GE(session.work().texelReads, 2U) << "another scene's texels";
+}
+
 }  // namespace
 }  // namespace whittle::test

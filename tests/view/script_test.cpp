@@ -33,6 +33,7 @@ class Recorder : public view::Stage {
   }
   bool hasPicture() const override { return time > 2; }
   bool isFinished() const override { return time > 5; }
+  bool showsNewest() const override { return time >= codesAt; }
   std::string stateJson() const override {
     return R"({"stats":{"rays":{"shadow":12},"name":"tree","list":[1,2]},"view":{"coarse":false}})";
   }
@@ -43,7 +44,7 @@ class Recorder : public view::Stage {
   std::string log;
   std::vector<std::pair<double, double>> places;
   bool isDown = false;
-  double time = 0;
+  double time = 0, codesAt = 0;
 };
 
 /// Runs to the end, a frame a tenth of a second.
@@ -103,6 +104,20 @@ TEST(Script, RefusesWhatIsNoCommandBeforeItBegins) {
   EXPECT_EQ(failure("key r\nkeys r"), "--script: line 2: 'keys' is no command");
   EXPECT_EQ(failure("set bounces"), "--script: line 1: 'set' takes 2 words");
   EXPECT_THROW(view::Script("expect a b"), InputError);
+}
+
+/// Codes come from another thread: what is shot is what was set.
+TEST(Script, AScreenshotWaitsForTheNewestCodes) {
+  Recorder stage;
+  stage.codesAt = 3;
+  view::Script script("set exposure 2\nscreenshot a.png\nprint view.coarse\n");
+  double shotAt = -1;
+  for (int i = 0; i < 1000 && script.step(stage); ++i) {
+    if (shotAt < 0 && stage.log.find("shot") != std::string::npos) shotAt = stage.time;
+    stage.time += 0.1;
+  }
+  EXPECT_GE(shotAt, 3);
+  EXPECT_LT(shotAt, 3.5);
 }
 
 }  // namespace

@@ -27,6 +27,10 @@ void loadFont(const std::vector<std::filesystem::path>& files, float scale) {
   io.Fonts->AddFontDefault(&config);
 }
 
+ImVec4 groundColor(bool isLight) {
+  return isLight ? ImVec4{0.839F, 0.839F, 0.855F, 1} : ImVec4{0.063F, 0.067F, 0.0745F, 1};
+}
+
 void applyStyle(bool isLight, float scale) {
   ImGuiStyle style;
   if (isLight)

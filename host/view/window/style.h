@@ -8,6 +8,8 @@
 
 namespace whittle::view {
 
+/// Behind the picture.
+ImVec4 groundColor(bool isLight);
 /// Dark or light, with room between things; `scale`: 1 on a monitor of 1080 rows.
 void applyStyle(bool isLight, float scale);
 /// One font with Latin, Greek, arrows and the signs of units; ImGui's own, which has ASCII alone, where no

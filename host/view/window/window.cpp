@@ -160,14 +160,15 @@ std::string Window::stateJson() const {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   const std::string own = fmt::format(
-      R"(,"window":{{"width":{},"height":{},"frames":{},"minimised":{},"pictureX":{},"pictureY":{},"pictureWidth":{},"pictureHeight":{},"uiScale":{},"panels":{},"firstRay":{},"listedRays":{},"statisticsCut":{}}}}})",
-      width, height, frames_, isMinimised(), picture_.x, picture_.y, picture_.width, picture_.height, scale_,
-      panelsShown_, panels_.firstRay, panels_.listedRays, statisticsCut_);
+      R"(,"window":{{"width":{},"height":{},"frames":{},"frameSeconds":{},"minimised":{},"pictureX":{},"pictureY":{},"pictureWidth":{},"pictureHeight":{},"uiScale":{},"panels":{},"firstRay":{},"listedRays":{},"statisticsCut":{}}}}})",
+      width, height, frames_, frameSeconds_, isMinimised(), picture_.x, picture_.y, picture_.width,
+      picture_.height, scale_, panelsShown_, panels_.firstRay, panels_.listedRays, statisticsCut_);
   state.pop_back();
   return state + own;
 }
 
 void Window::frame() {
+  const double began = now();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGuiIO& io = ImGui::GetIO();
@@ -184,14 +185,14 @@ void Window::frame() {
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   glViewport(0, 0, width, height);
-  glClearColor(0, 0, 0, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
+  clear(width, height);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (!pendingShot_.empty()) writeShot();
   if (panels_.restyles) restyle();
   ++frames_;
   glfwSwapBuffers(window_);
   drawnAt_ = now();
+  frameSeconds_ = drawnAt_ - began;
 }
 
 }  // namespace whittle::view

@@ -50,6 +50,7 @@ class Window : public Stage {
   void saveScene(const std::filesystem::path& file) override { model_.edits().save(file); }
   bool hasPicture() const override { return model_.hasPicture(); }
   bool isFinished() const override { return model_.isFinished(); }
+  bool showsNewest() const override { return model_.hasNewestCodes(); }
   std::string stateJson() const override;
   void print(const std::string& text) override { options_.print(text); }
   double now() const override;
@@ -62,6 +63,7 @@ class Window : public Stage {
   void leftPanel();
   void rightPanel();
   void bottomLine(float height);
+  void clear(int width, int height) const;
   void drawPicture();
   void drawScales();
   void drawScale(const ColorScale& scale, int steps);
@@ -129,13 +131,14 @@ class Window : public Stage {
   Marker marker_;
   bool isSliding_ = false;  ///< the line between picture and reference
   Rect picture_;
+  Rect ground_;                          ///< the part without panels, from the window's top
   float scale_ = 1, standardScale_ = 1;  ///< of letters and panels; and what the window began with
   float fontScale_ = 0;                  ///< that the letters were drawn for; 0: there are none
   float statisticsCut_ = 0;              ///< pixels of the right panel that one must scroll to see
   int panelsShown_ = 0;                  ///< beside the picture: none for want of room, one or both
   int framesToDraw_ = 3;
   int frames_ = 0;
-  double drawnAt_ = 0;
+  double drawnAt_ = 0, frameSeconds_ = 0;  ///< when and how long the last frame was drawn
   bool wasMoving_ = false;
   ImVec2 pressedAt_{-1, -1};              ///< where the left button went down on the picture
   int hoveredRay_ = -1;                   ///< in the list of rays

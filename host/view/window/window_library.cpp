@@ -3,7 +3,7 @@
 
 #include <GLFW/glfw3.h>
 
-#include <atomic>
+#include <mutex>
 
 #include "view/window/window.h"
 
@@ -14,19 +14,26 @@ class Library : public WindowLibrary {
  public:
   void run(ViewModel& model, const WindowOptions& options) const override {
     Window window(model, options);
-    isOpen_ = true;
+    setOpen(true);
     struct Closing {
-      std::atomic<bool>& isOpen;
-      ~Closing() { isOpen = false; }
-    } closing{isOpen_};
+      const Library& library;
+      ~Closing() { library.setOpen(false); }
+    } closing{*this};
     window.run();
   }
   void wake() const override {
+    const std::lock_guard lock(mutex_);
     if (isOpen_) glfwPostEmptyEvent();
   }
 
  private:
-  mutable std::atomic<bool> isOpen_ = false;
+  void setOpen(bool isOpen) const {
+    const std::lock_guard lock(mutex_);
+    isOpen_ = isOpen;
+  }
+
+  mutable std::mutex mutex_;  ///< held while GLFW is called, so that it does not end meanwhile
+  mutable bool isOpen_ = false;
 };
 
 }  // namespace

@@ -17,7 +17,10 @@ template <typename Content>
 void panel(const char* name, ImVec2 at, ImVec2 size, const Content& content) {
   ImGui::SetNextWindowPos(at);
   ImGui::SetNextWindowSize(size);
-  if (ImGui::Begin(name, nullptr, kFixed)) content();
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32_BLACK_TRANS);  // see Window::clear
+  const bool isShown = ImGui::Begin(name, nullptr, kFixed);
+  ImGui::PopStyleColor();
+  if (isShown) content();
   ImGui::End();
 }
 
@@ -35,7 +38,8 @@ void Window::drawPanels(float width, float height) {
                      : panelsShown_ == 1 ? kStatisticsWidth * unit
                                          : 0;
   const float right = panelsShown_ == 2 ? kStatisticsWidth * unit : 0;
-  picture_ = pictureRect(left, 0, std::max(1.0F, width - left - right), std::max(1.0F, height - line));
+  ground_ = {left, 0, std::max(1.0F, width - left - right), std::max(1.0F, height - line)};
+  picture_ = pictureRect(ground_.x, ground_.y, ground_.width, ground_.height);
   drawPicture();
   drawScales();
   drawRegion();

@@ -50,16 +50,33 @@ void Window::draw(const Texture& texture, float from, float to) {
   const int filter = texture.isCoarse || scale != std::floor(scale) ? GL_LINEAR : GL_NEAREST;
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  ImGui::GetBackgroundDrawList()->AddImage(
-      std::bit_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name)),
-      {picture_.x + from * picture_.width, picture_.y},
-      {picture_.x + to * picture_.width, picture_.y + picture_.height}, {from, 0}, {to, 1});
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  // It hides what is behind it: nothing is blended.
+  list.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
+  list.AddImage(std::bit_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name)),
+                {picture_.x + from * picture_.width, picture_.y},
+                {picture_.x + to * picture_.width, picture_.y + picture_.height}, {from, 0}, {to, 1});
+  list.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glEnable(GL_BLEND); }, nullptr);
+}
+
+/// What is behind everything: cleared, not filled, which is most of a frame where OpenGL is software.
+void Window::clear(int width, int height) const {
+  const auto with = [](const ImVec4& color) {
+    glClearColor(color.x, color.y, color.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+  };
+  with(ImGui::GetStyleColorVec4(ImGuiCol_WindowBg));
+  const ImVec2 toPixels = ImGui::GetIO().DisplayFramebufferScale;
+  const auto pixels = [](float places) { return static_cast<int>(std::lround(places)); };
+  const int left = pixels(ground_.x * toPixels.x), bottom = height - pixels(ground_.height * toPixels.y);
+  glScissor(left, bottom, std::min(width, pixels(ground_.width * toPixels.x)), height - bottom);
+  glEnable(GL_SCISSOR_TEST);
+  with(groundColor(panels_.isLight));
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void Window::drawPicture() {
   upload(model_.picture(), texture_);
-  const ImU32 ground = panels_.isLight ? IM_COL32(214, 214, 218, 255) : IM_COL32(16, 17, 19, 255);
-  ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, ImGui::GetIO().DisplaySize, ground);
   if (texture_.serial == 0) return;
   const Picture* const beside = pictureBeside();
   if (!beside) return draw(texture_, 0, 1);

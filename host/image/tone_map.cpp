@@ -1,6 +1,7 @@
 // Tone map: compression of the largest channel with a fade to white after the Khronos PBR Neutral tone mapper
-// (Lalish 2024), without its toe. Encoding: IEC 61966-2-1 through a table of the 255 borders between codes,
-// so that no rounding is left to pow().
+// (Lalish 2024), without its toe; the fade goes through OKLab (Ottosson 2020), where hue is an angle: in
+// linear light blue would turn violet on its way. Encoding: IEC 61966-2-1 through a table of the 255 borders
+// between codes, so that no rounding is left to pow().
 #include "image/tone_map.h"
 
 #include <tbb/parallel_for.h>
@@ -8,12 +9,29 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/glm.hpp>
 
 namespace whittle {
 namespace {
 
 /// Share of the removed excess that fades towards white; Khronos' value.
 constexpr double kFade = 0.15;
+
+/// `color` (largest channel 1) with the share `keep` of its OKLab chroma and of its distance to white's
+/// lightness: its hue stays. The largest channel is 1 again; what sRGB has no place for is cut.
+glm::dvec3 faded(const glm::dvec3& color, double keep) {
+  // Rows: of linear sRGB the responses of cones, and of their cube roots lightness, a and b.
+  static const glm::dmat3 toCones(0.4122214708, 0.5363325363, 0.0514459929, 0.2119034982, 0.6806995451,
+                                  0.1073969566, 0.0883024619, 0.2817188376, 0.6299787005);
+  static const glm::dmat3 toLab(0.2104542553, 0.7936177850, -0.0040720468, 1.9779984951, -2.4285922050,
+                                0.4505937099, 0.0259040371, 0.7827717662, -0.8086757660);
+  static const glm::dmat3 ofLab = glm::inverse(toLab), ofCones = glm::inverse(toCones);
+  const glm::dvec3 cones = color * toCones;
+  const glm::dvec3 lab = glm::dvec3(std::cbrt(cones.x), std::cbrt(cones.y), std::cbrt(cones.z)) * toLab;
+  const glm::dvec3 roots = glm::dvec3(1.0 + (lab.x - 1.0) * keep, lab.y * keep, lab.z * keep) * ofLab;
+  const glm::dvec3 light = glm::max(roots * roots * roots * ofCones, glm::dvec3(0.0));
+  return light / std::max({light.x, light.y, light.z});
+}
 
 using CodeBorders = std::array<double, 255>;
 
@@ -32,7 +50,7 @@ std::uint8_t encodeByte(const CodeBorders& borders, double v) {
 bool mapPixel(const CodeBorders& borders, const float* in, int channels, double scale, bool rollsOff,
               std::uint8_t* out) {
   const std::size_t step = channels >= 3 ? 1 : 0;
-  std::array<double, 3> c{};
+  glm::dvec3 c(0.0);
   double peak = 0;
   for (int k = 0; k < 3; ++k) {
     const float v = in[k * step];
@@ -45,13 +63,13 @@ bool mapPixel(const CodeBorders& borders, const float* in, int channels, double 
     peak = std::max(peak, c[k]);
   }
   if (!rollsOff) {
-    for (int k = 0; k < 3; ++k) out[k] = encodeByte(borders, std::min(c[k], 1.0));
-    return true;
+    c = glm::min(c, glm::dvec3(1.0));
+  } else if (peak > kToneKnee) {
+    const double mapped = rollOff(peak);
+    const bool isGrey = c.x == c.y && c.y == c.z;
+    c = isGrey ? glm::dvec3(mapped) : mapped * faded(c / peak, 1 / (kFade * (peak - mapped) + 1));
   }
-  const double mapped = rollOff(peak);
-  const double ratio = peak > 0 ? mapped / peak : 1;
-  const double keep = 1 / (kFade * (peak - mapped) + 1);
-  for (int k = 0; k < 3; ++k) out[k] = encodeByte(borders, mapped + (c[k] * ratio - mapped) * keep);
+  for (int k = 0; k < 3; ++k) out[k] = encodeByte(borders, c[k]);
   return true;
 }
 

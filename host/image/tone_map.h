@@ -28,10 +28,10 @@ float fittingExposure(const FloatImage& image);
 
 /// Width·height·3 bytes. With `rollsOff` the largest of the three channels goes through rollOff and the other
 /// two are scaled with it, so that hue stays where single channels would clip; what the roll-off takes away
-/// is given back as a slow fade to white. Two or fewer channels are grey, a fourth is left out. A pixel that
-/// is not finite becomes magenta (255, 0, 255) and is counted in `nonFinite` if given; negative values are 0.
-/// Rounds to the nearest code; the same bytes for any number of threads. Without it channels above 1 are cut:
-/// codes of an 8-bit texture come out as they went in.
+/// is given back as a slow fade to white, at the same hue in OKLab. Two or fewer channels are grey, a fourth
+/// is left out. A pixel that is not finite becomes magenta (255, 0, 255) and is counted in `nonFinite` if
+/// given; negative values are 0. Rounds to the nearest code; the same bytes for any number of threads.
+/// Without it channels above 1 are cut: codes of an 8-bit texture come out as they went in.
 std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops,
                                   std::uint64_t* nonFinite = nullptr, bool rollsOff = true);
 

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace whittle {
 namespace {
@@ -83,6 +85,69 @@ TEST(ToneMap, takesGreyAndLeavesAlphaOut) {
   EXPECT_EQ(toneMap({1, 1, 1, {0.5F}}, 0), Bytes(3, 188));
   EXPECT_EQ(toneMap({1, 1, 2, {0.5F, 0.1F}}, 0), Bytes(3, 188));
   EXPECT_EQ(toneMap({1, 2, 4, {0.5F, 0, 0.5F, 0.1F, 0, 0.5F, 0, 1}}, 0), (Bytes{188, 0, 188, 0, 188, 0}));
+}
+
+/// Hue and chroma in OKLab (Ottosson 2020).
+struct Hue {
+  double angle, chroma;  ///< degrees
+};
+Hue hueOf(double r, double g, double b) {
+  const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+  const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+  const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+  const double along = 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s;
+  const double across = 0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s;
+  return {std::atan2(across, along) * 180 / std::numbers::pi, std::hypot(along, across)};
+}
+Hue hueOf(const Bytes& codes) {
+  return hueOf(srgbDecode(codes[0] / 255.0), srgbDecode(codes[1] / 255.0), srgbDecode(codes[2] / 255.0));
+}
+
+/// Corners of sRGB and colours within, the largest channel 1.
+constexpr std::array kHues{std::array{1.0F, 0.0F, 0.0F}, std::array{1.0F, 0.4F, 0.05F},
+                           std::array{1.0F, 1.0F, 0.0F}, std::array{0.0F, 1.0F, 0.0F},
+                           std::array{0.0F, 1.0F, 1.0F}, std::array{0.25F, 0.5F, 1.0F},
+                           std::array{0.0F, 0.0F, 1.0F}, std::array{0.3F, 0.0F, 1.0F},
+                           std::array{1.0F, 0.0F, 1.0F}, std::array{1.0F, 0.6F, 0.4F}};
+
+TEST(ToneMap, HueStaysHoweverBright) {
+  for (const auto& [r, g, b] : kHues) {
+    const double hue = hueOf(static_cast<double>(r), static_cast<double>(g), static_cast<double>(b)).angle;
+    double chroma = 1;
+    for (float stop = -3; stop < 12; stop += 0.25F) {
+      const Hue seen = hueOf(toneMap(onePixel(r, g, b), stop));
+      // Half a code is 0.002 to 0.006 in a and b where colours are bright, and hue is that over the chroma;
+      // what sRGB has no place for on the way to white adds a fifth of a degree.
+      const double rounding = std::atan2(0.006, seen.chroma) * 180 / std::numbers::pi;
+      if (seen.chroma > 0.03) {
+        EXPECT_LT(std::abs(std::remainder(seen.angle - hue, 360)), 0.3 + rounding)
+            << r << ", " << g << ", " << b << " at " << stop;
+      }
+      if (stop > 0) {
+        EXPECT_LE(seen.chroma, chroma + 0.006) << "it pales";
+      }
+      chroma = seen.chroma;
+    }
+    const Bytes sun = toneMap(onePixel(r, g, b), 20);
+    for (const int code : sun) EXPECT_GE(code, 252) << "as bright as a sun it is white";
+  }
+}
+
+TEST(ToneMap, HueIsExactBelowTheKnee) {
+  // The identity: channels keep their ratios, and OKLab's hue does not depend on a common factor.
+  const double k = 0.37;
+  const Hue one = hueOf(0.8, 0.3, 0.1), other = hueOf(0.8 * k, 0.3 * k, 0.1 * k);
+  EXPECT_NEAR(one.angle, other.angle, 1e-9);
+  EXPECT_EQ(toneMap(onePixel(0.8F, 0.3F, 0.1F), 0), toneMap(onePixel(0.8F, 0.3F, 0.1F), 0, nullptr, false));
+}
+
+TEST(ToneMap, GreyStaysGrey) {
+  for (float v = 0.01F; v < 1e6F; v *= 1.3F) {
+    const Bytes codes = toneMap(onePixel(v, v, v), 0);
+    EXPECT_EQ(codes[0], codes[1]);
+    EXPECT_EQ(codes[1], codes[2]);
+  }
+  EXPECT_EQ(toneMap(onePixel(0.18F, 0.18F, 0.18F), 0), Bytes(3, 118)) << "srgbEncode(0.18) · 255 = 117.6";
 }
 
 FloatImage grey(const std::vector<float>& values) { return {static_cast<int>(values.size()), 1, 1, values}; }

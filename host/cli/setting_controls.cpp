@@ -50,6 +50,7 @@ constexpr std::array kRows{
     Row{"ambient", "Light", "ambient", Kind::Real},
     Row{"mirror-roughness", "Light", "mirrors up to", Kind::Real},
     Row{"back-faces", "Light", "back faces", Kind::Choice},
+    Row{"sky", "Light", "sky", Kind::Text},
     Row{"background-rotation", "Light", "background, °", Kind::Real},
     Row{"background-strength", "Light", "background ×", Kind::Real},
     Row{"search", "Device", "search", Kind::Choice},

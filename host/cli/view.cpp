@@ -93,9 +93,12 @@ class Sources {
   }
 
   /// Says what was written.
-  std::string save(const fs::path& copy, const Scene& scene, const Appearance& before,
-                   const Appearance& after) {
+  std::string save(const fs::path& copy, const Scene& scene, const Appearance& before, Appearance after) {
     const std::lock_guard lock(mutex_);
+    bool ofSky = false;  // its sun comes with it whenever the copy is read
+    for (std::size_t i = 0; scene.sky && i < before.lights.size(); ++i)
+      if (before.lights[i].node < 0 && differs(before.lights[i], after.lights[i]))
+        ofSky = true, after.lights[i] = before.lights[i];
     EditedScene edited{scene.file, {}, scene.origin, before, after};
     if (!options_.scene.empty()) edited.sceneName = options_.scene;
     const fs::path written = writeEditedCopy(edited, copy);
@@ -103,7 +106,9 @@ class Sources {
     for (std::size_t i = 0; scene.hasStudioLights && i < before.lights.size(); ++i)
       ofStudio |= differs(before.lights[i], after.lights[i]);
     return fmt::format("wrote {}{}", written.string(),
-                       ofStudio ? ", without the studio's surroundings: glTF has none" : "");
+                       ofStudio ? ", without the studio's surroundings: glTF has none"
+                       : ofSky  ? ", with the sun as the sky makes it"
+                                : "");
   }
 
  private:

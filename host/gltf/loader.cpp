@@ -138,6 +138,31 @@ void readBackground(const Document& document, int sceneIndex, Scene& scene, Noti
   scene.background.radiance = {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
 }
 
+/// extras.whittle.sky of the scene, [elevation, azimuth] or with a turbidity behind them.
+void readSky(const Document& document, int sceneIndex, Scene& scene, Notices& notices) {
+  if (sceneIndex < 0) return;
+  static const Json::json_pointer kWhere("/extras/whittle/sky");
+  const Json& description = document.json["scenes"][at(sceneIndex)];
+  if (!description.contains(kWhere)) return;
+  const Json& value = description[kWhere];
+  bool isList = value.is_array() && (value.size() == 2 || value.size() == 3);
+  for (std::size_t i = 0; isList && i < value.size(); ++i) isList = value[i].is_number();
+  Sky sky;
+  if (isList) {
+    sky.elevation = value[0].get<double>();
+    sky.azimuth = value[1].get<double>();
+    if (value.size() == 3) sky.turbidity = value[2].get<double>();
+  }
+  if (!isList || !isInRange(sky)) {
+    notices.warn(
+        fmt::format("extras.whittle.sky of the scene is not [elevation, azimuth] or with a turbidity: "
+                    "0 to 90 degrees, degrees, {} to {}; it is left out",
+                    kLeastTurbidity, kMostTurbidity));
+    return;
+  }
+  scene.sky = sky;
+}
+
 void load(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
   Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
   const GeometrySums sums = holdGeometry(document, hierarchy, options.laterTriangleBytes);
@@ -148,6 +173,10 @@ void load(Document& document, const LoadOptions& options, Scene& scene, Notices&
   readCameras(document, hierarchy, scene, notices);
   readLights(document, hierarchy, scene, notices);
   readBackground(document, hierarchy.scene, scene, notices);
+  if (!options.sky)
+    readSky(document, hierarchy.scene, scene, notices);
+  else if (!options.sky->isNone)
+    scene.sky = options.sky->sky;
 }
 
 }  // namespace

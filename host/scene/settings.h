@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scene/region.h"
+#include "scene/sky.h"
 
 namespace whittle {
 
@@ -46,6 +47,7 @@ struct Settings {
   std::string camera = "0";         ///< name or index
   double backgroundRotation = 0.0;  ///< degrees about +Y, see Background; loading has put it into the scene
   float backgroundStrength = 1.0F;  ///< factor of the background's radiance; the same
+  std::optional<SkyChoice> sky;     ///< unset: as the file says; loading has put it into the scene
   int bounces = 8;                  ///< backward tracing steps; 1 = direct light only
   int transparentBounces = 64;      ///< surfaces that a ray may pass straight on, besides its bounces
   /// What eye and impulse rays make of the backs of single-sided surfaces that light does not pass.
@@ -106,6 +108,7 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("camera", s.camera);
   visit("exposure", s.exposure);
   visit("toneMap", s.toneMap);
+  visit("sky", s.sky);
   visit("backgroundRotation", s.backgroundRotation);
   visit("backgroundStrength", s.backgroundStrength);
   visit("bounces", s.bounces);

@@ -28,7 +28,7 @@ bool isOfBackground(const std::string& id) {
 }
 
 /// Settings that put something into the scene.
-bool isOfLoading(const std::string& id) { return id == "area-lights"; }
+bool isOfLoading(const std::string& id) { return id == "area-lights" || id == "sky"; }
 
 }  // namespace
 
@@ -116,6 +116,7 @@ void Viewer::takeOver(Loaded loaded) {
   scene_ = loaded.scene;
   bounds_ = boundsOf(*scene_);
   background_.unscaled = scene_->background.unscaled;
+  background_.hasSun = scene_->background.hasSun;
   settle(loaded);
   editor_.take(*scene_, isSameFile);
   renewAppearance();
@@ -309,6 +310,8 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
   }
   if (changed.width != settings_.width || changed.height != settings_.height) changed.crop.reset();
   settings_ = changed;
+  if (id == "sky")
+    settings_.ambient = Settings{}.ambient;  // loading chooses it again: a sky's is a hundredfold
   if (isOfCodes(id))
     makeCodes();
   else if (isOfBackground(id))

@@ -7,13 +7,18 @@
 namespace whittle::test {
 namespace {
 
-TEST_F(WindowTest, StandingStillItIsThePictureOfRender) {
+class WindowPicture : public WindowTest, public testing::WithParamInterface<std::vector<std::string>> {};
+
+TEST_P(WindowPicture, StandingStillIsThatOfRender) {
+  std::vector<std::string> options = kSmall;
+  options.insert(options.end(), GetParam().begin(), GetParam().end());
   const Outcome run = play(
       "wait refined\nscreenshot window.png\nprint window.pictureX\nprint window.pictureY\n"
-      "print window.pictureWidth\nquit\n");
+      "print window.pictureWidth\nquit\n",
+      options);
   ASSERT_EQ(run.status, 0) << run.err;
   std::vector<std::string> args{"render", scene("cornell_box.glb"), "-o", "render.png", "--quiet"};
-  args.insert(args.end(), kSmall.begin(), kSmall.end());
+  args.insert(args.end(), options.begin(), options.end());
   ASSERT_EQ(runWhittle(args, {folder_.path(), {}}).status, 0);
   const Codes window = read("window.png"), picture = read("render.png");
   const int x0 = static_cast<int>(printed(run, "window.pictureX")),
@@ -28,6 +33,10 @@ TEST_F(WindowTest, StandingStillItIsThePictureOfRender) {
   EXPECT_EQ(different, 0U) << "of " << picture.width * picture.height;
 }
 
+INSTANTIATE_TEST_SUITE_P(Window, WindowPicture,
+                         testing::Values(std::vector<std::string>{},
+                                         std::vector<std::string>{"--sky", "30,20,2"}));
+
 TEST_F(WindowTest, EverySettingGoesThroughTheCommandLinesChecks) {
   expectPlayed(
       "wait refined\nexpect stats.rays.shadow > 0\nset shadows off\nwait refined\nexpect stats.rays.shadow "
@@ -37,11 +46,21 @@ TEST_F(WindowTest, EverySettingGoesThroughTheCommandLinesChecks) {
       "set wavefront 4096\nset work-group 4\nset seed 7\nset ambient 0.1\nset back-faces show\nset exposure "
       "1\n"
       "set tone-map none\nset transparent-bounces 3\nset mirror-roughness 0.1\nset background-rotation 30\n"
-      "set background-strength 2\nset rays-per-pixel 2\nset target-error 1%\nset width 80\nset height 45\n"
+      "set background-strength 2\nset rays-per-pixel 2\nset target-error "
+      "1%\nset width 80\nset height 45\n"
       "wait refined\nexpect stats.settings.width == 80\nexpect stats.settings.sampler == sobol\n"
       "expect view.width == 80\n");
   EXPECT_NE(play("wait refined\nset bounces 0\n").err.find("line 2: --bounces: '0' is not a whole number"),
             std::string::npos);
+}
+
+TEST_F(WindowTest, ASkyComesAndGoes) {
+  expectPlayed(
+      "wait refined\nexpect stats.scene.lights == 2\nset sky 20,30\nwait refined\n"
+      "expect stats.scene.lights == 3\nexpect stats.settings.sky == 20,30,3\n"
+      "expect stats.settings.ambient > 1\n"
+      "set sky none\nwait refined\nexpect stats.scene.lights == 2\nexpect stats.settings.ambient == 0\n");
+  EXPECT_NE(play("wait refined\nset sky 91,0\n").err.find("line 2: --sky: '91,0'"), std::string::npos);
 }
 
 TEST_F(WindowTest, ExposureTracesNothingAndACameraCompilesNothing) {

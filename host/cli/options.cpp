@@ -109,6 +109,24 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
            "auto"});
   addChoice(c, "--tone-map", s.toneMap,
             "of .png and .jpg: roll highlights off, or cut them; auto: none where all materials are unlit");
+  addText(
+      c, "--bloom",
+      [&s](const std::string& word) {
+        constexpr double kLargestRadius = 10.0;
+        const auto numbers = parseNumbers("--bloom", word, 1, 2, 0, kLargestRadius);
+        if (numbers[0] > 1.0)
+          throw InputError(fmt::format("--bloom: '{}': the strength is a share, 0 to 1", word));
+        s.bloom = Bloom{static_cast<float>(numbers[0])};
+        if (numbers.size() == 2) s.bloom.radius = static_cast<float>(numbers[1]);
+      },
+      {"STRENGTH[,RADIUS]",
+       "of .png and .jpg: spread this share of the light about where it is, as lenses and eyes do, as far as "
+       "RADIUS times the picture's height [0.1]; a region's comes from the region alone",
+       "0"});
+  c.add_flag(
+      "--dither,!--no-dither", s.dither,
+      "of .png and .jpg: round codes up or down by a fine pattern, so that slow gradients show no bands "
+      "[off]");
 
   c.option_defaults()->group("Light");
   constexpr double kLargest = std::numeric_limits<double>::max();

@@ -34,6 +34,8 @@ constexpr std::array kRows{
     Row{"crop", "Picture", "region", Kind::Text},
     Row{"exposure", "Picture", "exposure, stops", Kind::Real},
     Row{"tone-map", "Picture", "tone map", Kind::Choice},
+    Row{"bloom", "Picture", "bloom", Kind::Text},
+    Row{"dither", "Picture", "dither", Kind::Switch},
     Row{"aperture", "Picture", "aperture, m", Kind::Real},
     Row{"focus-distance", "Picture", "focus, m", Kind::Text},
     Row{"sampler", "Picture", "sampler", Kind::Choice},

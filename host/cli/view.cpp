@@ -17,7 +17,6 @@
 #include "cli/speech.h"
 #include "gltf/edited_copy.h"
 #include "image/image_io.h"
-#include "image/tone_map.h"
 #include "render/peak_memory.h"
 #include "scene/own_library.h"
 #include "view/viewer.h"
@@ -124,7 +123,7 @@ class Sources {
 
 std::vector<std::uint8_t> codesOf(const FloatImage& radiance, const Scene& scene, const Settings& settings) {
   const Look look = lookOf(radiance, scene, settings, {"a.png"}, true);
-  const std::vector<std::uint8_t> rgb = toneMap(radiance, look.stops, nullptr, look.rollsOff);
+  const std::vector<std::uint8_t> rgb = pictureCodes(radiance, {}, look);
   std::vector<std::uint8_t> rgba(rgb.size() / 3 * 4, 255);
   for (std::size_t i = 0; i < rgb.size() / 3; ++i)
     for (std::size_t c = 0; c < 3; ++c) rgba[4 * i + c] = rgb[3 * i + c];

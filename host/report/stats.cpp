@@ -32,6 +32,9 @@ Json settingToJson(const std::optional<float>& value) { return value ? Json(json
 Json settingToJson(const std::optional<Region>& r) {
   return r ? Json(fmt::format("{},{},{},{}", r->x, r->y, r->width, r->height)) : Json();
 }
+Json settingToJson(const Bloom& b) {
+  return Json(b.strength > 0.0F ? fmt::format("{:g},{:g}", b.strength, b.radius) : "0");
+}
 Json settingToJson(const std::optional<SkyChoice>& c) {
   if (!c) return Json();
   return c->isNone

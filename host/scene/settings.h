@@ -40,6 +40,13 @@ constexpr const auto& wordsOf(Sampler) { return kSamplerWords; }
 constexpr const auto& wordsOf(ImpulseMode) { return kImpulseWords; }
 constexpr const auto& wordsOf(Lanes) { return kLanesWords; }
 
+/// Glare of a bright light about itself, as lenses and eyes make it.
+struct Bloom {
+  float strength = 0.0F;  ///< share of the light that is scattered, [0, 1]; 0: none
+  float radius = 0.1F;    ///< how far, as a share of the picture's height (image/bloom.h)
+  bool operator==(const Bloom&) const = default;
+};
+
 struct Settings {
   int width = 640;                  ///< pixels
   int height = 360;                 ///< pixels
@@ -95,6 +102,8 @@ struct Settings {
   bool errorAov = false;          ///< keep the standard error of each pixel
   std::optional<float> exposure;  ///< stops, for .png/.jpg only; unset: chosen where the picture does not fit
   ToneMap toneMap = ToneMap::Auto;  ///< for .png/.jpg only
+  Bloom bloom;                      ///< for .png/.jpg only
+  bool dither = false;              ///< for .png/.jpg only: codes are rounded up or down by a fine pattern
 };
 
 /// Calls visit("name", member) for every setting that the statistics carry, in their order. The option is
@@ -108,6 +117,8 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("camera", s.camera);
   visit("exposure", s.exposure);
   visit("toneMap", s.toneMap);
+  visit("bloom", s.bloom);
+  visit("dither", s.dither);
   visit("sky", s.sky);
   visit("backgroundRotation", s.backgroundRotation);
   visit("backgroundStrength", s.backgroundStrength);

@@ -21,7 +21,9 @@ namespace {
 constexpr std::size_t kMessages = 200;
 constexpr std::chrono::milliseconds kLookEvery{400};  ///< at the scene's file
 /// Settings that only change how radiance becomes codes.
-bool isOfCodes(const std::string& id) { return id == "exposure" || id == "tone-map"; }
+bool isOfCodes(const std::string& id) {
+  return id == "exposure" || id == "tone-map" || id == "bloom" || id == "dither";
+}
 /// Those that are edits of the scene.
 bool isOfBackground(const std::string& id) {
   return id == "background-rotation" || id == "background-strength";

@@ -35,7 +35,8 @@ TEST_P(WindowPicture, StandingStillIsThatOfRender) {
 
 INSTANTIATE_TEST_SUITE_P(Window, WindowPicture,
                          testing::Values(std::vector<std::string>{},
-                                         std::vector<std::string>{"--sky", "30,20,2"}));
+                                         std::vector<std::string>{"--bloom", "0.3,0.2", "--dither", "--sky",
+                                                                  "30,20,2"}));
 
 TEST_F(WindowTest, EverySettingGoesThroughTheCommandLinesChecks) {
   expectPlayed(
@@ -46,7 +47,7 @@ TEST_F(WindowTest, EverySettingGoesThroughTheCommandLinesChecks) {
       "set wavefront 4096\nset work-group 4\nset seed 7\nset ambient 0.1\nset back-faces show\nset exposure "
       "1\n"
       "set tone-map none\nset transparent-bounces 3\nset mirror-roughness 0.1\nset background-rotation 30\n"
-      "set background-strength 2\nset rays-per-pixel 2\nset target-error "
+      "set bloom 0.1,0.05\nset dither on\nset background-strength 2\nset rays-per-pixel 2\nset target-error "
       "1%\nset width 80\nset height 45\n"
       "wait refined\nexpect stats.settings.width == 80\nexpect stats.settings.sampler == sobol\n"
       "expect view.width == 80\n");
@@ -66,6 +67,7 @@ TEST_F(WindowTest, ASkyComesAndGoes) {
 TEST_F(WindowTest, ExposureTracesNothingAndACameraCompilesNothing) {
   expectPlayed(
       "wait refined\nset exposure 2\nwait 0.2\nexpect view.finished == true\n"
+      "set bloom 0.2\nset dither on\nwait 0.2\nexpect view.finished == true\n"
       "drag 80 40 100 45 left\nwait refined\nexpect view.programs == 0\nexpect view.scene == 0\n"
       "key 5\nwait refined\nexpect view.programs == 0\nkey 7\nkey 1\nkey f\nkey r\nwheel 80 45 3\n"
       "drag 80 40 60 40 right\ndrag 80 40 60 40 middle\nwait refined\nexpect view.programs == 0\n");

@@ -9,6 +9,8 @@
 #include <limits>
 #include <numbers>
 
+#include "image/blue_noise.h"
+
 namespace whittle {
 namespace {
 
@@ -170,6 +172,76 @@ TEST(ToneMap, WithoutRollOffEachCodeComesOutAsItWentIn) {
   const auto bytes = toneMap(grey(values), 0, nullptr, false);
   for (int i = 0; i < 256; ++i) EXPECT_EQ(bytes[3 * static_cast<std::size_t>(i)], i);
   EXPECT_EQ(toneMap(grey({7}), 0, nullptr, false)[0], 255);
+}
+
+/// Mean code of a large flat picture.
+double meanCode(float value, bool dithers) {
+  constexpr int kSide = 2 * kThresholdSide;
+  const auto codes = toneMap({kSide, kSide, 1, std::vector<float>(std::size_t{kSide} * kSide, value)}, 0,
+                             nullptr, false, dithers);
+  double sum = 0;
+  for (std::size_t i = 0; i < codes.size(); i += 3) sum += codes[i];
+  return sum / (kSide * kSide);
+}
+
+TEST(Dither, TheMeanIsTheValueAndNoPixelIsOffByACode) {
+  for (const float value : {0.001F, 0.02F, 0.1234F, 0.5F, 0.77F, 0.99F}) {
+    const double right = 255 * srgbEncode(static_cast<double>(value));
+    // Every one of 64² thresholds comes equally often.
+    EXPECT_NEAR(meanCode(value, true), right, 1.0 / (kThresholdSide * kThresholdSide));
+    const auto codes = toneMap({64, 64, 1, std::vector<float>(64 * 64, value)}, 0, nullptr, false, true);
+    for (const int code : codes) ASSERT_LT(std::abs(code - right), 1);
+  }
+}
+
+TEST(Dither, WhatIsACodeStaysThatCode) {
+  for (int code = 0; code < 256; ++code) {
+    const float v = static_cast<float>(srgbDecode(code / 255.0));
+    EXPECT_EQ(meanCode(v, true), code);
+  }
+}
+
+TEST(Dither, GreyStaysGreyAndAlphaIsRounded) {
+  const FloatImage image{64, 64, 3, std::vector<float>(64 * 64 * 3, 0.3F)};
+  const auto codes = toneMap(image, 0, nullptr, true, true);
+  for (std::size_t i = 0; i < codes.size(); i += 3)
+    ASSERT_TRUE(codes[i] == codes[i + 1] && codes[i] == codes[i + 2]);
+  const auto clear =
+      toneMapWithAlpha(image, {64, 64, 1, std::vector<float>(64 * 64, 0.7501F)}, 0, true, true);
+  for (std::size_t i = 3; i < clear.size(); i += 4) ASSERT_EQ(clear[i], 191);
+  EXPECT_EQ(toneMap({1, 1, 3, {NAN, 0, 0}}, 0, nullptr, true, true), (Bytes{255, 0, 255}));
+}
+
+TEST(Dither, ARegionHasThePatternOfItsPlace) {
+  FloatImage whole{50, 40, 1, {}};
+  for (int i = 0; i < 50 * 40; ++i) whole.pixels.push_back(static_cast<float>(i) / 2000);
+  const FloatImage part = cutOut(whole, {13, 7, 20, 11});
+  const auto all = toneMap(whole, 0, nullptr, true, true), own = toneMap(part, 0, nullptr, true, true);
+  for (std::size_t y = 0; y < 11; ++y)
+    for (std::size_t x = 0; x < 20; ++x)
+      ASSERT_EQ(own[3 * (y * 20 + x)], all[3 * ((y + 7) * 50 + x + 13)]) << x << ", " << y;
+}
+
+TEST(Dither, ThresholdsAreSpreadEvenly) {
+  constexpr int kSide = kThresholdSide;
+  std::vector<int> seen(std::size_t{kSide} * kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const double rank = orderedThreshold(x, y) * kSide * kSide - 0.5;
+      ASSERT_NEAR(rank, std::round(rank), 1e-9);
+      ++seen[static_cast<std::size_t>(std::lround(rank))];
+    }
+  for (const int times : seen) ASSERT_EQ(times, 1);
+  // In squares of 8×8 the mean varies less than a third of what chance would leave: 1/√12/8 = 0.036.
+  double squares = 0;
+  for (int y = 0; y < kSide; y += 8)
+    for (int x = 0; x < kSide; x += 8) {
+      double mean = 0;
+      for (int j = 0; j < 8; ++j)
+        for (int i = 0; i < 8; ++i) mean += orderedThreshold(x + i, y + j) / 64;
+      squares += (mean - 0.5) * (mean - 0.5) / 64;
+    }
+  EXPECT_LT(std::sqrt(squares), 0.012);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "cli/option_kinds.h"
 #include "image/image_header.h"
 #include "image/image_io.h"
 #include "report/text.h"
@@ -114,6 +115,20 @@ Background parseBackground(const std::string& text, MemoryBudget& budget, Notice
 
 }  // namespace
 
+std::optional<SkyChoice> parseSky(const std::string& option, const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  if (text == "none") return SkyChoice{true, {}};
+  const std::vector<double> numbers = parseNumbers(option, text, 2, 3);
+  SkyChoice choice;
+  choice.sky.elevation = numbers[0];
+  choice.sky.azimuth = numbers[1];
+  if (numbers.size() == 3) choice.sky.turbidity = numbers[2];
+  if (!isInRange(choice.sky))
+    throw InputError(fmt::format("{}: '{}': the elevation is 0 to 90 degrees, the turbidity {} to {}", option,
+                                 text, kLeastTurbidity, kMostTurbidity));
+  return choice;
+}
+
 void applyBackground(Scene& scene, const std::string& text, const Settings& settings, MemoryBudget& budget,
                      Notices& notices) {
   if (!text.empty()) scene.background = parseBackground(text, budget, notices);
@@ -122,7 +137,9 @@ void applyBackground(Scene& scene, const std::string& text, const Settings& sett
   const bool isBlack = scene.background.radiance == glm::vec3(0.0F);
   if (settings.backgroundStrength != 1.0F && isBlack && settings.backgroundStrength > 0.0F)
     notices.note("--background-strength changes nothing: what surrounds the scene is black");
-  if (settings.backgroundRotation != 0.0 && (isBlack || scene.background.map.empty()))
+  if (settings.backgroundRotation != 0.0 && scene.background.hasSun)
+    notices.note("--background-rotation changes nothing: --sky says where its sun stands");
+  else if (settings.backgroundRotation != 0.0 && (isBlack || scene.background.map.empty()))
     notices.note("--background-rotation changes nothing: what surrounds the scene is the same all around");
 }
 

@@ -1,6 +1,7 @@
-// What surrounds the scene: --background, --background-rotation, --background-strength.
+// What surrounds the scene: --sky, --background, --background-rotation, --background-strength.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "scene/memory_budget.h"
@@ -9,6 +10,10 @@
 #include "scene/settings.h"
 
 namespace whittle::cli {
+
+/// "ELEVATION,AZIMUTH", with ",TURBIDITY" behind it or not, "none", or "auto": as the file says. Throws
+/// InputError that names the option.
+std::optional<SkyChoice> parseSky(const std::string& option, const std::string& text);
 
 /// Puts `text` ("R,G,B", one number, or an equirectangular picture; empty: the scene's background stays) into
 /// the scene, then turns and scales it as the settings say. Texels that no sky can have are mended, with one

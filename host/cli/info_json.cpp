@@ -105,6 +105,11 @@ Json backgroundJson(const Background& b) {
           {"rotation", b.rotation}};
 }
 
+Json skyJson(const std::optional<Sky>& sky) {
+  if (!sky) return nullptr;
+  return {{"elevation", sky->elevation}, {"azimuth", sky->azimuth}, {"turbidity", sky->turbidity}};
+}
+
 }  // namespace
 
 Json infoJson(const InfoReport& r) {
@@ -120,6 +125,7 @@ Json infoJson(const InfoReport& r) {
             {"animations", animationsJson(scene)},
             {"cameras", camerasJson(scene)},
             {"background", backgroundJson(scene.background)},
+            {"sky", skyJson(scene.sky)},
             {"features", featuresJson(r.features, r.pruning)},
             {"stages", r.stages},
             {"pipeline", pipelineJson(r.stages)}};

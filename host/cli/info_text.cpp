@@ -122,6 +122,9 @@ std::string contents(const Scene& s) {
   const auto& b = s.background;
   std::string map = b.map.empty() ? "" : fmt::format(" times a map of {}×{}", b.width, b.height);
   if (!b.map.empty() && b.rotation != 0.0) map += fmt::format(", turned by {:g}°", b.rotation);
+  if (s.sky)
+    map += fmt::format(", a sky with its sun {:g}° high at {:g}°, turbidity {:g}", s.sky->elevation,
+                       s.sky->azimuth, s.sky->turbidity);
   return out + "  " + wrapped(fmt::format("background {} W/(m² sr){}", vectorText(b.radiance), map), 78, 4) +
          "\n";
 }

@@ -57,6 +57,22 @@ double parseReal(const std::string& option, const std::string& text, double low,
   return value;
 }
 
+std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t least,
+                                 std::size_t most, double low, double high) {
+  std::vector<double> numbers;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    numbers.push_back(parseReal(option, text.substr(begin, end - begin), low, high));
+    begin = end + 1;
+  }
+  if (numbers.size() < least || numbers.size() > most)
+    throw InputError(
+        fmt::format("{}: '{}' is not {} numbers with commas between them", option, text,
+                    least == most ? std::to_string(least) : fmt::format("{} or {}", least, most)));
+  return numbers;
+}
+
 std::optional<float> parseRealOrAuto(const std::string& option, const std::string& text, double low,
                                      double high) {
   if (text == "auto") return std::nullopt;

@@ -35,6 +35,9 @@ inline bool given(const CLI::Option* option) { return option && option->count() 
 std::int64_t parseWhole(const std::string& option, const std::string& text, std::int64_t low,
                         std::int64_t high);
 double parseReal(const std::string& option, const std::string& text, double low, double high);
+/// `least` to `most` numbers with commas between them, each as parseReal has it.
+std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t least,
+                                 std::size_t most, double low = -1e18, double high = 1e18);
 /// The same, or nothing for "auto".
 std::optional<float> parseRealOrAuto(const std::string& option, const std::string& text, double low,
                                      double high);

@@ -115,9 +115,33 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
            "auto"});
   addChoice(c, "--tone-map", s.toneMap,
             "of .png and .jpg: roll highlights off, or cut them; auto: none where all materials are unlit");
+  addText(
+      c, "--bloom",
+      [&s](const std::string& word) {
+        constexpr double kLargestRadius = 10.0;
+        const auto numbers = parseNumbers("--bloom", word, 1, 2, 0, kLargestRadius);
+        if (numbers[0] > 1.0)
+          throw InputError(fmt::format("--bloom: '{}': the strength is a share, 0 to 1", word));
+        s.bloom = Bloom{static_cast<float>(numbers[0])};
+        if (numbers.size() == 2) s.bloom.radius = static_cast<float>(numbers[1]);
+      },
+      {"STRENGTH[,RADIUS]",
+       "of .png and .jpg: spread this share of the light about where it is, as lenses and eyes do, as far as "
+       "RADIUS times the picture's height [0.1]; a region's comes from the region alone",
+       "0"});
+  c.add_flag(
+      "--dither,!--no-dither", s.dither,
+      "of .png and .jpg: round codes up or down by a fine pattern, so that slow gradients show no bands "
+      "[off]");
 
   c.option_defaults()->group("Light");
   constexpr double kLargest = std::numeric_limits<double>::max();
+  addText(c, "--sky", [&s](const std::string& word) { s.sky = parseSky("--sky", word); },
+          {"ELEVATION,AZIMUTH[,TURBIDITY]",
+           "a clear sky and its sun around the scene: degrees above the horizon, degrees from +Z towards +X, "
+           "haze from 1.7 to 10 [3]; in W/(m² sr), which --exposure auto makes fit; none: leave out the "
+           "file's",
+           "auto: as the file says"});
   addReal(
       c, "--background-rotation", s.backgroundRotation, -kLargest, kLargest, "DEGREES",
       "turn what surrounds the scene about +Y, counter-clockwise seen from above: 90 brings what was at +X "
@@ -144,7 +168,7 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
       {"auto|X",
        "Whitted's ambient term: radiance in W/(m² sr) that surfaces receive from all sides, unshadowed; "
        "auto: a tenth of the scene's light",
-       "0; auto with the studio's lights"});
+       "0; auto with the studio's lights or a sky"});
   addReal(c, "--cutoff", s.cutoff, 0, kLargestCutoff, "T",
           "trace no mirror or glass ray whose share of the picture (throughput) is at most this in every "
           "colour; --stats says what that and the limits of depth can cost (biasBound beside meanRadiance)",
@@ -297,6 +321,12 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   if (settings.areaLights && !load.defaultLights) load.defaultLights = false;
   load.confined = options.confined;
   load.defaultBackground = options.defaultBackground && options.background.empty();
+  load.sky = settings.sky;
+  if (!options.background.empty()) {
+    if (settings.sky && !settings.sky->isNone)
+      throw InputError("--background and --sky: give one of the two");
+    load.sky = SkyChoice{true, {}};
+  }
   Scene scene = loadGltf(options.file, load, notices);
   if (settings.areaLights && !addSurfaceLight(scene))
     notices.warn("--area-lights: no surface of the scene glows");
@@ -305,11 +335,15 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))
     notices.note("something lies beyond the camera's zfar; --clip-far leaves it out");
   applyBackground(scene, options.background, settings, budget, notices);
-  // A studio's walls send some of its light back.
-  const bool isStudio = scene.hasStudioLights && options.ambient && !given(options.ambient);
-  if (isStudio || !settings.ambient) {
+  // A studio's walls send some of its light back, and the sky lights what lies in the shade.
+  const bool isUnset = options.ambient && !given(options.ambient);
+  const bool isStudio = isUnset && scene.hasStudioLights, isSky = isUnset && scene.sky;
+  if (isStudio || isSky || !settings.ambient) {
     settings.ambient = automaticAmbient(scene);
-    notices.note(fmt::format("--ambient auto{}: {} W/(m² sr)", isStudio ? ", with the studio's lights" : "",
+    notices.note(fmt::format("--ambient auto{}: {} W/(m² sr)",
+                             isStudio ? ", with the studio's lights"
+                             : isSky  ? ", with the sky"
+                                      : "",
                              *settings.ambient));
   }
   settleFocus(options, scene, settings, notices);

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "cli/speech.h"
+#include "image/bloom.h"
 #include "image/tone_map.h"
 #include "scene/input_error.h"
 #include "scene/material_predicates.h"
@@ -130,6 +131,8 @@ Look lookOf(const FloatImage& radiance, const Scene& scene, const Settings& sett
                        std::none_of(scene.triangles.begin(), scene.triangles.end(),
                                     [&](const Triangle& t) { return isLit(scene.materials[t.material]); });
   Look look;
+  look.bloom = settings.bloom;
+  look.dithers = settings.dither;
   look.rollsOff = settings.toneMap == ToneMap::Auto ? !isUnlit : settings.toneMap == ToneMap::Filmic;
   if (settings.exposure) {
     look.stops = *settings.exposure;
@@ -143,20 +146,23 @@ Look lookOf(const FloatImage& radiance, const Scene& scene, const Settings& sett
   return look;
 }
 
+std::vector<std::uint8_t> pictureCodes(const FloatImage& radiance, const FloatImage& alpha,
+                                       const Look& look) {
+  FloatImage glaring;
+  if (look.bloom.strength > 0.0F) glaring = withBloom(radiance, look.bloom);
+  const FloatImage& shown = glaring.pixels.empty() ? radiance : glaring;
+  if (alpha.pixels.empty()) return toneMap(shown, look.stops, nullptr, look.rollsOff, look.dithers);
+  return toneMapWithAlpha(shown, alpha, look.stops, look.rollsOff, look.dithers);
+}
+
 void writePicture(const fs::path& file, const FloatImage& radiance, const FloatImage& alpha, const Look& look,
                   const ImageMetadata& metadata) {
   const bool opaque = alpha.pixels.empty();
   if (isExr(file))
     writeExr(file, opaque ? radiance : joined({&radiance, &alpha}), metadata);
-  else if (opaque)
-    writeCodes(file,
-               {radiance.width, radiance.height, 3, toneMap(radiance, look.stops, nullptr, look.rollsOff)},
-               metadata);
   else
-    writeCodes(
-        file,
-        {radiance.width, radiance.height, 4, toneMapWithAlpha(radiance, alpha, look.stops, look.rollsOff)},
-        metadata);
+    writeCodes(file, {radiance.width, radiance.height, opaque ? 3 : 4, pictureCodes(radiance, alpha, look)},
+               metadata);
 }
 
 bool isExr(const fs::path& file) { return hasExtension(file, {".exr"}); }

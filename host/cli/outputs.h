@@ -1,6 +1,7 @@
 // Where pictures and reports go: checked before a render, written whole after it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -44,12 +45,17 @@ class OutputCheck {
 struct Look {
   float stops = 0.0F;
   bool rollsOff = true;
+  Bloom bloom;
+  bool dithers = false;
 };
 
 /// What the settings leave to picture and scene; a note on standard error where stops were chosen and one of
 /// the outputs shows them, unless `quiet`.
 Look lookOf(const FloatImage& radiance, const Scene& scene, const Settings& settings,
             const std::vector<std::filesystem::path>& outputs, bool quiet);
+
+/// Codes as .png and .jpg have them, three for each pixel, or with `alpha` (a channel, or no picture) four.
+std::vector<std::uint8_t> pictureCodes(const FloatImage& radiance, const FloatImage& alpha, const Look& look);
 
 /// .exr: linear floats; .png/.jpg: tone-mapped. `alpha`: a channel that joins them, or no picture at all.
 /// `metadata` goes into the file.

@@ -19,7 +19,6 @@
 #include "cli/speech.h"
 #include "gltf/edited_copy.h"
 #include "image/image_io.h"
-#include "image/tone_map.h"
 #include "render/peak_memory.h"
 #include "scene/own_library.h"
 #include "view/viewer.h"
@@ -96,9 +95,12 @@ class Sources {
   }
 
   /// Says what was written.
-  std::string save(const fs::path& copy, const Scene& scene, const Appearance& before,
-                   const Appearance& after) {
+  std::string save(const fs::path& copy, const Scene& scene, const Appearance& before, Appearance after) {
     const std::lock_guard lock(mutex_);
+    bool ofSky = false;  // its sun comes with it whenever the copy is read
+    for (std::size_t i = 0; scene.sky && i < before.lights.size(); ++i)
+      if (before.lights[i].node < 0 && differs(before.lights[i], after.lights[i]))
+        ofSky = true, after.lights[i] = before.lights[i];
     EditedScene edited{scene.file, {}, scene.origin, before, after};
     if (!options_.scene.empty()) edited.sceneName = options_.scene;
     const fs::path written = writeEditedCopy(edited, copy);
@@ -106,7 +108,9 @@ class Sources {
     for (std::size_t i = 0; scene.hasStudioLights && i < before.lights.size(); ++i)
       ofStudio |= differs(before.lights[i], after.lights[i]);
     return fmt::format("wrote {}{}", written.string(),
-                       ofStudio ? ", without the studio's surroundings: glTF has none" : "");
+                       ofStudio ? ", without the studio's surroundings: glTF has none"
+                       : ofSky  ? ", with the sun as the sky makes it"
+                                : "");
   }
 
  private:
@@ -126,7 +130,7 @@ class Sources {
 
 std::vector<std::uint8_t> codesOf(const FloatImage& radiance, const Scene& scene, const Settings& settings) {
   const Look look = lookOf(radiance, scene, settings, {"a.png"}, true);
-  const std::vector<std::uint8_t> rgb = toneMap(radiance, look.stops, nullptr, look.rollsOff);
+  const std::vector<std::uint8_t> rgb = pictureCodes(radiance, {}, look);
   std::vector<std::uint8_t> rgba(rgb.size() / 3 * 4, 255);
   for (std::size_t i = 0; i < rgb.size() / 3; ++i)
     for (std::size_t c = 0; c < 3; ++c) rgba[4 * i + c] = rgb[3 * i + c];

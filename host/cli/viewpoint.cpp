@@ -18,23 +18,6 @@ namespace {
 constexpr double kToDegrees = 180.0 / std::numbers::pi;
 constexpr double kFarthest = 1e18, kLeastHeight = 1e-9;  // metres
 
-/// Numbers with commas between them, `least` to `most` of them.
-std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t least,
-                                 std::size_t most) {
-  std::vector<double> numbers;
-  std::size_t begin = 0;
-  while (begin <= text.size()) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    numbers.push_back(parseReal(option, text.substr(begin, end - begin), -kFarthest, kFarthest));
-    begin = end + 1;
-  }
-  if (numbers.size() < least || numbers.size() > most)
-    throw InputError(
-        fmt::format("{}: '{}' is not {} numbers with commas between them", option, text,
-                    least == most ? std::to_string(least) : fmt::format("{} or {}", least, most)));
-  return numbers;
-}
-
 glm::dvec3 parsePoint(const std::string& option, const std::string& text) {
   const auto n = parseNumbers(option, text, 3, 3);
   return {n[0], n[1], n[2]};

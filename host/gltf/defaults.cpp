@@ -8,6 +8,7 @@
 #include "gltf/studio.h"
 #include "scene/camera.h"
 #include "scene/material_predicates.h"
+#include "scene/sky_model.h"
 
 namespace whittle {
 
@@ -42,6 +43,12 @@ void addDefaults(Scene& scene, Notices& notices, const LoadOptions& options) {
                                            [](const Light& l) { return l.intensity == glm::vec3(0.0F); }))
     notices.warn(
         fmt::format("all {} lights of the file have intensity 0: they light nothing", scene.lights.size()));
+  if (scene.sky) {
+    addSky(scene, *scene.sky);
+    if (options.defaultLights.value_or(false))
+      notices.note("--default-lights adds nothing: the sky has a sun");
+    return;
+  }
   const bool isBlack = scene.background.map.empty() && scene.background.radiance == glm::vec3(0.0F);
   if (!scene.lights.empty() || !isBlack) {
     if (options.defaultLights.value_or(false) && !scene.lights.empty())

@@ -155,6 +155,31 @@ std::vector<bool> pose(Document& document, const LoadOptions& options, Scene& sc
   return std::vector<bool>(document.nodes.size());
 }
 
+/// extras.whittle.sky of the scene, [elevation, azimuth] or with a turbidity behind them.
+void readSky(const Document& document, int sceneIndex, Scene& scene, Notices& notices) {
+  if (sceneIndex < 0) return;
+  static const Json::json_pointer kWhere("/extras/whittle/sky");
+  const Json& description = document.json["scenes"][at(sceneIndex)];
+  if (!description.contains(kWhere)) return;
+  const Json& value = description[kWhere];
+  bool isList = value.is_array() && (value.size() == 2 || value.size() == 3);
+  for (std::size_t i = 0; isList && i < value.size(); ++i) isList = value[i].is_number();
+  Sky sky;
+  if (isList) {
+    sky.elevation = value[0].get<double>();
+    sky.azimuth = value[1].get<double>();
+    if (value.size() == 3) sky.turbidity = value[2].get<double>();
+  }
+  if (!isList || !isInRange(sky)) {
+    notices.warn(
+        fmt::format("extras.whittle.sky of the scene is not [elevation, azimuth] or with a turbidity: "
+                    "0 to 90 degrees, degrees, {} to {}; it is left out",
+                    kLeastTurbidity, kMostTurbidity));
+    return;
+  }
+  scene.sky = sky;
+}
+
 void load(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
   std::vector<bool> moved = pose(document, options, scene, notices);
   Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
@@ -167,6 +192,10 @@ void load(Document& document, const LoadOptions& options, Scene& scene, Notices&
   readCameras(document, hierarchy, scene, notices);
   readLights(document, hierarchy, scene, notices);
   readBackground(document, hierarchy.scene, scene, notices);
+  if (!options.sky)
+    readSky(document, hierarchy.scene, scene, notices);
+  else if (!options.sky->isNone)
+    scene.sky = options.sky->sky;
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ struct LoadOptions {
   /// would be dark.
   std::optional<bool> defaultLights = {};
   bool defaultBackground = true;            ///< with them, its surroundings
+  std::optional<SkyChoice> sky = {};        ///< in the place of the file's; then there is no studio
   std::string camera = "0";                 ///< which one lights are added for; see findCamera
   std::optional<Viewpoint> viewpoint = {};  ///< a camera by hand, in the place of the file's
   std::optional<double> time = {};  ///< seconds: nodes as an animation has them; unset: as the file rests
@@ -35,9 +36,9 @@ struct LoadOptions {
 /// chosen. Adds a camera, lights and a background where the file has none (see addDefaults).
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices);
 
-/// A camera that frames the scene where it has none; a studio (studio.h) around the camera that is chosen,
-/// where it has neither lights nor a background and something would be dark: surfaces that glow light
-/// nothing. Both are noted.
+/// A camera that frames the scene where it has none; the sky, where it has one, else a studio (studio.h)
+/// around the camera that is chosen, where it has neither lights nor a background and something would be
+/// dark: surfaces that glow light nothing. Both are noted.
 void addDefaults(Scene& scene, Notices& notices, const LoadOptions& options = {});
 
 }  // namespace whittle

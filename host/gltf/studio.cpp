@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
+#include "scene/background_map.h"
 
 namespace whittle {
 namespace {
@@ -72,22 +72,7 @@ std::vector<Light> studioLights(const Camera& camera) {
 Background studioBackground(const Camera& camera) {
   constexpr int kWidth = 128, kHeight = 64;
   const CameraFrame frame = frameOf(camera);
-  Background background;
-  background.radiance = glm::vec3(1.0F);
-  background.width = kWidth;
-  background.height = kHeight;
-  background.map.reserve(std::size_t{3} * kWidth * kHeight);
-  for (int y = 0; y < kHeight; ++y) {
-    const double polar = (y + 0.5) / kHeight * std::numbers::pi;
-    for (int x = 0; x < kWidth; ++x) {
-      const double around = ((x + 0.5) / kWidth - 0.5) * 2.0 * std::numbers::pi;
-      const glm::dvec3 d(std::sin(polar) * std::sin(around), std::cos(polar),
-                         -std::sin(polar) * std::cos(around));
-      const glm::dvec3 radiance = radianceFrom(frame, d);
-      for (int c = 0; c < 3; ++c) background.map.push_back(static_cast<float>(radiance[c]));
-    }
-  }
-  return background;
+  return mapOf(kWidth, kHeight, [&](const glm::dvec3& d) { return radianceFrom(frame, d); });
 }
 
 }  // namespace whittle

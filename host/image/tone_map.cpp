@@ -1,6 +1,7 @@
 // Tone map: compression of the largest channel with a fade to white after the Khronos PBR Neutral tone mapper
-// (Lalish 2024), without its toe. Encoding: IEC 61966-2-1 through a table of the 255 borders between codes,
-// so that no rounding is left to pow().
+// (Lalish 2024), without its toe; the fade goes through OKLab (Ottosson 2020), where hue is an angle: in
+// linear light blue would turn violet on its way. Encoding: IEC 61966-2-1 through a table of the 255 borders
+// between codes, so that no rounding is left to pow(), but where it dithers.
 #include "image/tone_map.h"
 
 #include <tbb/parallel_for.h>
@@ -8,6 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/glm.hpp>
+
+#include "image/blue_noise.h"
 
 namespace whittle {
 namespace {
@@ -23,6 +27,22 @@ struct CodeBorders {
       borders{};  ///< [i] the linear value half way (in code space) between code i and i + 1
   std::array<std::uint8_t, kCells + 1> first{};  ///< [k] the code of k / kCells
 };
+
+/// `color` (largest channel 1) with the share `keep` of its OKLab chroma and of its distance to white's
+/// lightness: its hue stays. The largest channel is 1 again; what sRGB has no place for is cut.
+glm::dvec3 faded(const glm::dvec3& color, double keep) {
+  // Rows: of linear sRGB the responses of cones, and of their cube roots lightness, a and b.
+  static const glm::dmat3 toCones(0.4122214708, 0.5363325363, 0.0514459929, 0.2119034982, 0.6806995451,
+                                  0.1073969566, 0.0883024619, 0.2817188376, 0.6299787005);
+  static const glm::dmat3 toLab(0.2104542553, 0.7936177850, -0.0040720468, 1.9779984951, -2.4285922050,
+                                0.4505937099, 0.0259040371, 0.7827717662, -0.8086757660);
+  static const glm::dmat3 ofLab = glm::inverse(toLab), ofCones = glm::inverse(toCones);
+  const glm::dvec3 cones = color * toCones;
+  const glm::dvec3 lab = glm::dvec3(std::cbrt(cones.x), std::cbrt(cones.y), std::cbrt(cones.z)) * toLab;
+  const glm::dvec3 roots = glm::dvec3(1.0 + (lab.x - 1.0) * keep, lab.y * keep, lab.z * keep) * ofLab;
+  const glm::dvec3 light = glm::max(roots * roots * roots * ofCones, glm::dvec3(0.0));
+  return light / std::max({light.x, light.y, light.z});
+}
 
 CodeBorders makeBorders() {
   CodeBorders b;
@@ -42,11 +62,30 @@ std::uint8_t encodeByte(const CodeBorders& b, double v) {
   return code;
 }
 
-/// Writes one pixel; false if it was not finite.
-bool mapPixel(const CodeBorders& borders, const float* in, int channels, double scale, bool rollsOff,
-              std::uint8_t* out) {
-  const std::size_t step = channels >= 3 ? 1 : 0;
-  std::array<double, 3> c{};
+/// The code below a value or the one above, by a threshold in (0, 1).
+std::uint8_t ditheredByte(double v, double threshold) {
+  return static_cast<std::uint8_t>(std::min(255.0, std::floor(255.0 * srgbEncode(v) + threshold)));
+}
+
+/// How a picture's values become codes.
+struct Encoding {
+  CodeBorders borders = makeBorders();
+  double scale = 1.0;
+  bool rollsOff = true, dithers = false;
+  int channels = 3;
+  Frame frame{};
+
+  std::uint8_t operator()(double v, double threshold) const {
+    return dithers ? ditheredByte(v, threshold) : encodeByte(borders, v);
+  }
+};
+
+/// Writes the pixel at (x, y) of the picture; `alpha`: what it was multiplied by. False if it was not finite.
+bool mapPixel(const Encoding& encode, const float* in, int x, int y, std::uint8_t* out, double alpha = 1.0) {
+  const std::size_t step = encode.channels >= 3 ? 1 : 0;
+  const double scale = encode.scale / alpha;
+  const double threshold = encode.dithers ? orderedThreshold(encode.frame.x + x, encode.frame.y + y) : 0.0;
+  glm::dvec3 c(0.0);
   double peak = 0;
   for (int k = 0; k < 3; ++k) {
     const float v = in[k * step];
@@ -58,15 +97,25 @@ bool mapPixel(const CodeBorders& borders, const float* in, int channels, double 
     c[k] = std::max(0.0, v * scale);
     peak = std::max(peak, c[k]);
   }
-  if (!rollsOff) {
-    for (int k = 0; k < 3; ++k) out[k] = encodeByte(borders, std::min(c[k], 1.0));
-    return true;
+  if (!encode.rollsOff) {
+    c = glm::min(c, glm::dvec3(1.0));
+  } else if (peak > kToneKnee) {
+    const double mapped = rollOff(peak);
+    const bool isGrey = c.x == c.y && c.y == c.z;
+    c = isGrey ? glm::dvec3(mapped) : mapped * faded(c / peak, 1 / (kFade * (peak - mapped) + 1));
   }
-  const double mapped = rollOff(peak);
-  const double ratio = peak > 0 ? mapped / peak : 1;
-  const double keep = 1 / (kFade * (peak - mapped) + 1);
-  for (int k = 0; k < 3; ++k) out[k] = encodeByte(borders, mapped + (c[k] * ratio - mapped) * keep);
+  for (int k = 0; k < 3; ++k) out[k] = encode(c[k], threshold);
   return true;
+}
+
+Encoding encodingOf(const FloatImage& image, float exposureStops, bool rollsOff, bool dithers) {
+  Encoding encode;
+  encode.scale = std::exp2(static_cast<double>(exposureStops));
+  encode.rollsOff = rollsOff;
+  encode.dithers = dithers;
+  encode.channels = image.channels;
+  encode.frame = image.frame;
+  return encode;
 }
 
 }  // namespace
@@ -109,9 +158,8 @@ float fittingExposure(const FloatImage& image) {
 }
 
 std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops, std::uint64_t* nonFinite,
-                                  bool rollsOff) {
-  const CodeBorders borders = makeBorders();
-  const double scale = std::exp2(static_cast<double>(exposureStops));
+                                  bool rollsOff, bool dithers) {
+  const Encoding encode = encodingOf(image, exposureStops, rollsOff, dithers);
   const std::size_t width = image.width;
   std::vector<std::uint8_t> bytes(width * image.height * 3);
   std::vector<std::uint64_t> badInRow(image.height);
@@ -119,7 +167,7 @@ std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops, 
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t pixel = y * width + x;
       const float* in = &image.pixels[pixel * image.channels];
-      if (!mapPixel(borders, in, image.channels, scale, rollsOff, &bytes[pixel * 3])) ++badInRow[y];
+      if (!mapPixel(encode, in, static_cast<int>(x), y, &bytes[pixel * 3])) ++badInRow[y];
     }
   });
   if (nonFinite != nullptr) {
@@ -130,9 +178,8 @@ std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops, 
 }
 
 std::vector<std::uint8_t> toneMapWithAlpha(const FloatImage& image, const FloatImage& alpha,
-                                           float exposureStops, bool rollsOff) {
-  const CodeBorders borders = makeBorders();
-  const double scale = std::exp2(static_cast<double>(exposureStops));
+                                           float exposureStops, bool rollsOff, bool dithers) {
+  const Encoding encode = encodingOf(image, exposureStops, rollsOff, dithers);
   const std::size_t width = image.width;
   std::vector<std::uint8_t> bytes(width * image.height * 4);
   tbb::parallel_for(0, image.height, [&](int y) {
@@ -141,8 +188,7 @@ std::vector<std::uint8_t> toneMapWithAlpha(const FloatImage& image, const FloatI
       const double a = std::clamp(static_cast<double>(alpha.pixels[pixel]), 0.0, 1.0);
       std::uint8_t* const out = &bytes[pixel * 4];
       out[3] = static_cast<std::uint8_t>(std::lround(255 * a));
-      if (out[3] > 0)
-        mapPixel(borders, &image.pixels[pixel * image.channels], image.channels, scale / a, rollsOff, out);
+      if (out[3] > 0) mapPixel(encode, &image.pixels[pixel * image.channels], static_cast<int>(x), y, out, a);
     }
   });
   return bytes;

@@ -28,16 +28,21 @@ float fittingExposure(const FloatImage& image);
 
 /// Width·height·3 bytes. With `rollsOff` the largest of the three channels goes through rollOff and the other
 /// two are scaled with it, so that hue stays where single channels would clip; what the roll-off takes away
-/// is given back as a slow fade to white. Two or fewer channels are grey, a fourth is left out. A pixel that
-/// is not finite becomes magenta (255, 0, 255) and is counted in `nonFinite` if given; negative values are 0.
-/// Rounds to the nearest code; the same bytes for any number of threads. Without it channels above 1 are cut:
-/// codes of an 8-bit texture come out as they went in.
+/// is given back as a slow fade to white, at the same hue in OKLab. Two or fewer channels are grey, a fourth
+/// is left out. A pixel that is not finite becomes magenta (255, 0, 255) and is counted in `nonFinite` if
+/// given; negative values are 0. Rounds to the nearest code; the same bytes for any number of threads.
+/// Without `rollsOff` channels above 1 are cut: codes of an 8-bit texture come out as they went in. With
+/// `dithers` a value between two codes is rounded up in as many pixels as it is near the upper one, by
+/// orderedThreshold of the pixel's place in the picture (in `frame` where the image is a region): off by less
+/// than a code, in the mean by nothing, and a value that is a code stays that code.
 std::vector<std::uint8_t> toneMap(const FloatImage& image, float exposureStops,
-                                  std::uint64_t* nonFinite = nullptr, bool rollsOff = true);
+                                  std::uint64_t* nonFinite = nullptr, bool rollsOff = true,
+                                  bool dithers = false);
 
 /// The same with `alpha` (one channel, [0, 1]) as the fourth byte: width·height·4. Files of codes hold
 /// colours that are not multiplied by alpha, so `image`, which is, is divided by it first; 0 where alpha is.
+/// Alpha is not dithered.
 std::vector<std::uint8_t> toneMapWithAlpha(const FloatImage& image, const FloatImage& alpha,
-                                           float exposureStops, bool rollsOff = true);
+                                           float exposureStops, bool rollsOff = true, bool dithers = false);
 
 }  // namespace whittle

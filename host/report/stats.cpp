@@ -32,6 +32,15 @@ Json settingToJson(const std::optional<float>& value) { return value ? Json(json
 Json settingToJson(const std::optional<Region>& r) {
   return r ? Json(fmt::format("{},{},{},{}", r->x, r->y, r->width, r->height)) : Json();
 }
+Json settingToJson(const Bloom& b) {
+  return Json(b.strength > 0.0F ? fmt::format("{:g},{:g}", b.strength, b.radius) : "0");
+}
+Json settingToJson(const std::optional<SkyChoice>& c) {
+  if (!c) return Json();
+  return c->isNone
+             ? Json("none")
+             : Json(fmt::format("{:.9g},{:.9g},{:.9g}", c->sky.elevation, c->sky.azimuth, c->sky.turbidity));
+}
 /// Bits of features, by name.
 Json settingToJson(std::uint64_t features) {
   Json names = Json::array();

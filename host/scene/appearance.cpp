@@ -44,7 +44,7 @@ bool differs(const Material& a, const Material& b) { return numbersOf(a) != numb
 
 void turnAndScale(Background& background, const Settings& settings) {
   background.radiance = background.unscaled * settings.backgroundStrength;
-  background.rotation = settings.backgroundRotation;
+  background.rotation = background.hasSun ? 0.0 : settings.backgroundRotation;
 }
 
 }  // namespace whittle

@@ -26,7 +26,7 @@ void setAppearance(const Appearance& appearance, Scene& scene);
 bool differs(const Light& a, const Light& b);
 bool differs(const Material& a, const Material& b);
 
-/// As --background-rotation and --background-strength say.
+/// As --background-rotation and --background-strength say; a background with a sun of its own is not turned.
 void turnAndScale(Background& background, const Settings& settings);
 
 }  // namespace whittle

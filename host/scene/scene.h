@@ -7,11 +7,13 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kernels/shared/scene_tables.h"
+#include "scene/sky.h"
 
 namespace whittle {
 
@@ -175,6 +177,7 @@ struct Background {
   /// along -Z. Finite.
   double rotation = 0.0;
   glm::vec3 unscaled{0.0F};  ///< `radiance` before a strength was applied (turnAndScale)
+  bool hasSun = false;       ///< a light of the scene is its sun: it does not turn without it
 };
 
 /// One of the animations of the scene's file.
@@ -200,6 +203,7 @@ struct Scene {
   std::vector<Camera> cameras;   ///< never empty after loading
   bool hasOurCamera = false;     ///< it was set up around the scene, or by hand
   Background background;
+  std::optional<Sky> sky;  ///< that `background` and one of the lights were made of
   /// Where the scene's coordinates begin, in those of the file, metres: 0 but for scenes far from there,
   /// which single precision would shake. Whoever shows coordinates adds it.
   glm::dvec3 origin{0.0};

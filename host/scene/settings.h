@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scene/region.h"
+#include "scene/sky.h"
 
 namespace whittle {
 
@@ -39,6 +40,13 @@ constexpr const auto& wordsOf(Sampler) { return kSamplerWords; }
 constexpr const auto& wordsOf(ImpulseMode) { return kImpulseWords; }
 constexpr const auto& wordsOf(Lanes) { return kLanesWords; }
 
+/// Glare of a bright light about itself, as lenses and eyes make it.
+struct Bloom {
+  float strength = 0.0F;  ///< share of the light that is scattered, [0, 1]; 0: none
+  float radius = 0.1F;    ///< how far, as a share of the picture's height (image/bloom.h)
+  bool operator==(const Bloom&) const = default;
+};
+
 struct Settings {
   int width = 640;                  ///< pixels
   int height = 360;                 ///< pixels
@@ -46,6 +54,7 @@ struct Settings {
   std::string camera = "0";         ///< name or index
   double backgroundRotation = 0.0;  ///< degrees about +Y, see Background; loading has put it into the scene
   float backgroundStrength = 1.0F;  ///< factor of the background's radiance; the same
+  std::optional<SkyChoice> sky;     ///< unset: as the file says; loading has put it into the scene
   int bounces = 8;                  ///< backward tracing steps; 1 = direct light only
   int transparentBounces = 64;      ///< surfaces that a ray may pass straight on, besides its bounces
   /// What eye and impulse rays make of the backs of single-sided surfaces that light does not pass.
@@ -93,6 +102,8 @@ struct Settings {
   bool errorAov = false;          ///< keep the standard error of each pixel
   std::optional<float> exposure;  ///< stops, for .png/.jpg only; unset: chosen where the picture does not fit
   ToneMap toneMap = ToneMap::Auto;  ///< for .png/.jpg only
+  Bloom bloom;                      ///< for .png/.jpg only
+  bool dither = false;              ///< for .png/.jpg only: codes are rounded up or down by a fine pattern
 };
 
 /// Calls visit("name", member) for every setting that the statistics carry, in their order. The option is
@@ -106,6 +117,9 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("camera", s.camera);
   visit("exposure", s.exposure);
   visit("toneMap", s.toneMap);
+  visit("bloom", s.bloom);
+  visit("dither", s.dither);
+  visit("sky", s.sky);
   visit("backgroundRotation", s.backgroundRotation);
   visit("backgroundStrength", s.backgroundStrength);
   visit("bounces", s.bounces);

@@ -20,14 +20,16 @@ namespace {
 constexpr std::size_t kMessages = 200;
 constexpr std::chrono::milliseconds kLookEvery{400};  ///< at the scene's file
 /// Settings that only change how radiance becomes codes.
-bool isOfCodes(const std::string& id) { return id == "exposure" || id == "tone-map"; }
+bool isOfCodes(const std::string& id) {
+  return id == "exposure" || id == "tone-map" || id == "bloom" || id == "dither";
+}
 /// Those that are edits of the scene.
 bool isOfBackground(const std::string& id) {
   return id == "background-rotation" || id == "background-strength";
 }
 
 /// Settings that put something into the scene.
-bool isOfLoading(const std::string& id) { return id == "area-lights"; }
+bool isOfLoading(const std::string& id) { return id == "area-lights" || id == "sky"; }
 
 }  // namespace
 
@@ -121,6 +123,7 @@ void Viewer::takeOver(Loaded loaded) {
   scene_ = loaded.scene;
   bounds_ = boundsOf(*scene_);
   background_.unscaled = scene_->background.unscaled;
+  background_.hasSun = scene_->background.hasSun;
   settle(loaded);
   editor_.take(*scene_, isSameFile);
   renewAppearance();
@@ -271,6 +274,8 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
   if (changed.width != settings_.width || changed.height != settings_.height) changed.crop.reset();
   settings_ = changed;
   renewStandards();
+  if (id == "sky")
+    settings_.ambient = Settings{}.ambient;  // loading chooses it again: a sky's is a hundredfold
   if (isOfCodes(id))
     makeCodes();
   else if (isOfBackground(id))

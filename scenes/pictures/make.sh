@@ -15,13 +15,17 @@ for bounces in 1 2 7; do render "mirror_box_$bounces" mirror_box --bounces "$bou
 for scene in spot_cone emission shadow mirror refraction textured nested_glass; do render "$scene" "$scene"; done
 render anti_aliasing_1 anti_aliasing --rays-per-pixel 1
 render anti_aliasing_64 anti_aliasing --rays-per-pixel 64
-# The large composition; its scene is made for the picture.
+# The large ones; their scenes are made for the pictures.
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$(dirname "$whittle")/make_scenes" - --watchmaker "$work/watchmaker.glb"
 "$whittle" render "$work/watchmaker.glb" -o "$here/watchmaker.jpg" --width 1920 --height 1080 --rays-per-pixel 12 \
   --sampler sobol --bounces 10 --cutoff 1e-2 --tone-map filmic --exposure 0 --quiet
 echo watchmaker.jpg
+"$(dirname "$whittle")/make_scenes" - --valley "$work/valley.glb"
+"$whittle" render "$work/valley.glb" -o "$here/valley.jpg" --sky 14,70 --sun-angle 0.53 --bloom 0.05 --width 960 \
+  --height 540 --rays-per-pixel 64 --sampler sobol --quiet
+echo valley.jpg
 # The window, on an X server without a screen.
 exec {ready}< <(exec Xvfb -displayfd 1 -screen 0 1280x720x24 -nolisten tcp 2>/dev/null)
 server=$!

@@ -10,33 +10,39 @@
 namespace whittle::test {
 namespace {
 
+class WindowPicture : public WindowTest, public testing::WithParamInterface<std::vector<std::string>> {};
+
 /// With options that decide each other, as --glossy does the roughness of mirrors, and with larger letters.
-TEST_F(WindowTest, StandingStillItIsThePictureOfRender) {
-  using Words = std::vector<std::string>;
-  for (const Words& more : {Words{}, Words{"--glossy"}, Words{"--area-lights"}}) {
-    Words view = kSmall, args{"render", scene("cornell_box.glb"), "-o", "render.png", "--quiet"};
-    view.insert(view.end(), more.begin(), more.end());
-    args.insert(args.end(), view.begin(), view.end());
-    view.insert(view.end(), {"--ui-scale", "1.25"});
-    const Outcome run = play(
-        "wait refined\nscreenshot window.png\nprint window.pictureX\nprint window.pictureY\n"
-        "print window.pictureWidth\nquit\n",
-        view);
-    ASSERT_EQ(run.status, 0) << run.err;
-    ASSERT_EQ(runWhittle(args, {folder_.path(), {}}).status, 0);
-    const Codes window = read("window.png"), picture = read("render.png");
-    const int x0 = static_cast<int>(printed(run, "window.pictureX")),
-              y0 = static_cast<int>(printed(run, "window.pictureY"));
-    const int scale = static_cast<int>(printed(run, "window.pictureWidth")) / picture.width;
-    ASSERT_GE(scale, 1);
-    std::size_t different = 0;
-    for (int y = 0; y < picture.height; ++y)
-      for (int x = 0; x < picture.width; ++x)
-        for (int k = 0; k < scale; ++k)
-          different += picture.at(x, y) != window.at(x0 + x * scale + k, y0 + y * scale + k);
-    EXPECT_EQ(different, 0U) << fmt::format("{}", fmt::join(more, " "));
-  }
+TEST_P(WindowPicture, StandingStillIsThatOfRender) {
+  std::vector<std::string> args{"render", scene("cornell_box.glb"), "-o", "render.png", "--quiet"},
+      options = kSmall;
+  options.insert(options.end(), GetParam().begin(), GetParam().end());
+  args.insert(args.end(), options.begin(), options.end());
+  options.insert(options.end(), {"--ui-scale", "1.25"});
+  const Outcome run = play(
+      "wait refined\nscreenshot window.png\nprint window.pictureX\nprint window.pictureY\n"
+      "print window.pictureWidth\nquit\n",
+      options);
+  ASSERT_EQ(run.status, 0) << run.err;
+  ASSERT_EQ(runWhittle(args, {folder_.path(), {}}).status, 0);
+  const Codes window = read("window.png"), picture = read("render.png");
+  const int x0 = static_cast<int>(printed(run, "window.pictureX")),
+            y0 = static_cast<int>(printed(run, "window.pictureY"));
+  const int scale = static_cast<int>(printed(run, "window.pictureWidth")) / picture.width;
+  ASSERT_GE(scale, 1);
+  std::size_t different = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      for (int k = 0; k < scale; ++k)
+        different += picture.at(x, y) != window.at(x0 + x * scale + k, y0 + y * scale + k);
+  EXPECT_EQ(different, 0U) << "of " << picture.width * picture.height;
 }
+
+INSTANTIATE_TEST_SUITE_P(Window, WindowPicture,
+                         testing::Values(std::vector<std::string>{}, std::vector<std::string>{"--glossy"},
+                                         std::vector<std::string>{"--area-lights"},
+                                         std::vector<std::string>{"--bloom", "0.3,0.2", "--dither", "--sky",
+                                                                  "30,20,2"}));
 
 TEST_F(WindowTest, EverySettingGoesThroughTheCommandLinesChecks) {
   expectPlayed(
@@ -47,16 +53,27 @@ TEST_F(WindowTest, EverySettingGoesThroughTheCommandLinesChecks) {
       "set wavefront 4096\nset work-group 4\nset seed 7\nset ambient 0.1\nset back-faces show\nset exposure "
       "1\n"
       "set tone-map none\nset transparent-bounces 3\nset mirror-roughness 0.1\nset background-rotation 30\n"
-      "set background-strength 2\nset rays-per-pixel 2\nset target-error 1%\nset width 80\nset height 45\n"
+      "set bloom 0.1,0.05\nset dither on\nset background-strength 2\nset rays-per-pixel 2\nset target-error "
+      "1%\nset width 80\nset height 45\n"
       "wait refined\nexpect stats.settings.width == 80\nexpect stats.settings.sampler == sobol\n"
       "expect view.width == 80\n");
   EXPECT_NE(play("wait refined\nset bounces 0\n").err.find("line 2: --bounces: '0' is not a whole number"),
             std::string::npos);
 }
 
+TEST_F(WindowTest, ASkyComesAndGoes) {
+  expectPlayed(
+      "wait refined\nexpect stats.scene.lights == 2\nset sky 20,30\nwait refined\n"
+      "expect stats.scene.lights == 3\nexpect stats.settings.sky == 20,30,3\n"
+      "expect stats.settings.ambient > 1\n"
+      "set sky none\nwait refined\nexpect stats.scene.lights == 2\nexpect stats.settings.ambient == 0\n");
+  EXPECT_NE(play("wait refined\nset sky 91,0\n").err.find("line 2: --sky: '91,0'"), std::string::npos);
+}
+
 TEST_F(WindowTest, ExposureTracesNothingAndACameraCompilesNothing) {
   expectPlayed(
       "wait refined\nset exposure 2\nwait 0.2\nexpect view.finished == true\n"
+      "set bloom 0.2\nset dither on\nwait 0.2\nexpect view.finished == true\n"
       "drag 80 40 100 45 left\nwait refined\nexpect view.programs == 0\nexpect view.scene == 0\n"
       "key 5\nwait refined\nexpect view.programs == 0\nkey 7\nkey 1\nkey f\nkey r\nwheel 80 45 3\n"
       "drag 80 40 60 40 right\ndrag 80 40 60 40 middle\nwait refined\nexpect view.programs == 0\n");

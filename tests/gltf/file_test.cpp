@@ -271,6 +271,33 @@ TEST(GltfDefaults, LightsAreAddedOnlyWhereNothingShines) {
   EXPECT_EQ(lightsWith(Json::object(), "anything").lights.size(), 3U);
 }
 
+TEST(GltfDefaults, AFilesSkyIsMadeUnlessAnotherIsAskedFor) {
+  const auto sceneWith = [](const Json& value, std::size_t warnings, std::optional<SkyChoice> asked = {}) {
+    GltfBuilder b;
+    b.material(Json::object());
+    b.node({{"mesh", b.triangleMesh({{"material", 0}})}});
+    b.json["scenes"][0]["extras"]["whittle"]["sky"] = value;
+    LoadOptions options;
+    options.sky = asked;
+    Scene scene = b.load(options);
+    EXPECT_EQ(b.notices.warnings.size(), warnings) << value;
+    return scene;
+  };
+  const Scene outside = sceneWith({30, 90, 2.5}, 0);
+  EXPECT_EQ(outside.sky, (Sky{30, 90, 2.5}));
+  ASSERT_EQ(outside.lights.size(), 1U) << "no studio beside the sun";
+  EXPECT_FALSE(outside.hasStudioLights);
+  // The sun stands half way up in +X, and shines the other way.
+  expectNear(outside.lights[0].direction, {-std::sqrt(0.75F), -0.5F, 0}, 1e-6F);
+  EXPECT_EQ(sceneWith({30, 90}, 0).sky, (Sky{30, 90, 3}));
+  EXPECT_EQ(sceneWith({30, 90}, 0, SkyChoice{false, {10, 0, 4}}).sky, (Sky{10, 0, 4}));
+  EXPECT_EQ(sceneWith({30, 90}, 0, SkyChoice{true, {}}).lights.size(), 3U)
+      << "then it is a file without lights";
+  for (const Json& wrong : {Json("noon"), Json({30}), Json({91, 0}), Json({30, "x"}), Json({30, 0, 1}),
+                            Json({30, 0, 3, 3}), Json(nullptr)})
+    EXPECT_FALSE(sceneWith(wrong, 1).sky) << wrong;
+}
+
 TEST(GltfDefaults, LampsThatAreAllDarkAreSaid) {
   for (const double intensity : {0.0, 1.0}) {
     GltfBuilder b;

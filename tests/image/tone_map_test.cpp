@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+
+#include "image/blue_noise.h"
 
 namespace whittle {
 namespace {
@@ -86,6 +90,69 @@ TEST(ToneMap, takesGreyAndLeavesAlphaOut) {
   EXPECT_EQ(toneMap({1, 2, 4, {0.5F, 0, 0.5F, 0.1F, 0, 0.5F, 0, 1}}, 0), (Bytes{188, 0, 188, 0, 188, 0}));
 }
 
+/// Hue and chroma in OKLab (Ottosson 2020).
+struct Hue {
+  double angle, chroma;  ///< degrees
+};
+Hue hueOf(double r, double g, double b) {
+  const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+  const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+  const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+  const double along = 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s;
+  const double across = 0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s;
+  return {std::atan2(across, along) * 180 / std::numbers::pi, std::hypot(along, across)};
+}
+Hue hueOf(const Bytes& codes) {
+  return hueOf(srgbDecode(codes[0] / 255.0), srgbDecode(codes[1] / 255.0), srgbDecode(codes[2] / 255.0));
+}
+
+/// Corners of sRGB and colours within, the largest channel 1.
+constexpr std::array kHues{std::array{1.0F, 0.0F, 0.0F}, std::array{1.0F, 0.4F, 0.05F},
+                           std::array{1.0F, 1.0F, 0.0F}, std::array{0.0F, 1.0F, 0.0F},
+                           std::array{0.0F, 1.0F, 1.0F}, std::array{0.25F, 0.5F, 1.0F},
+                           std::array{0.0F, 0.0F, 1.0F}, std::array{0.3F, 0.0F, 1.0F},
+                           std::array{1.0F, 0.0F, 1.0F}, std::array{1.0F, 0.6F, 0.4F}};
+
+TEST(ToneMap, HueStaysHoweverBright) {
+  for (const auto& [r, g, b] : kHues) {
+    const double hue = hueOf(static_cast<double>(r), static_cast<double>(g), static_cast<double>(b)).angle;
+    double chroma = 1;
+    for (float stop = -3; stop < 12; stop += 0.25F) {
+      const Hue seen = hueOf(toneMap(onePixel(r, g, b), stop));
+      // Half a code is 0.002 to 0.006 in a and b where colours are bright, and hue is that over the chroma;
+      // what sRGB has no place for on the way to white adds a fifth of a degree.
+      const double rounding = std::atan2(0.006, seen.chroma) * 180 / std::numbers::pi;
+      if (seen.chroma > 0.03) {
+        EXPECT_LT(std::abs(std::remainder(seen.angle - hue, 360)), 0.3 + rounding)
+            << r << ", " << g << ", " << b << " at " << stop;
+      }
+      if (stop > 0) {
+        EXPECT_LE(seen.chroma, chroma + 0.006) << "it pales";
+      }
+      chroma = seen.chroma;
+    }
+    const Bytes sun = toneMap(onePixel(r, g, b), 20);
+    for (const int code : sun) EXPECT_GE(code, 252) << "as bright as a sun it is white";
+  }
+}
+
+TEST(ToneMap, HueIsExactBelowTheKnee) {
+  // The identity: channels keep their ratios, and OKLab's hue does not depend on a common factor.
+  const double k = 0.37;
+  const Hue one = hueOf(0.8, 0.3, 0.1), other = hueOf(0.8 * k, 0.3 * k, 0.1 * k);
+  EXPECT_NEAR(one.angle, other.angle, 1e-9);
+  EXPECT_EQ(toneMap(onePixel(0.8F, 0.3F, 0.1F), 0), toneMap(onePixel(0.8F, 0.3F, 0.1F), 0, nullptr, false));
+}
+
+TEST(ToneMap, GreyStaysGrey) {
+  for (float v = 0.01F; v < 1e6F; v *= 1.3F) {
+    const Bytes codes = toneMap(onePixel(v, v, v), 0);
+    EXPECT_EQ(codes[0], codes[1]);
+    EXPECT_EQ(codes[1], codes[2]);
+  }
+  EXPECT_EQ(toneMap(onePixel(0.18F, 0.18F, 0.18F), 0), Bytes(3, 118)) << "srgbEncode(0.18) · 255 = 117.6";
+}
+
 FloatImage grey(const std::vector<float>& values) { return {static_cast<int>(values.size()), 1, 1, values}; }
 
 TEST(ToneMap, ExposureIsChosenOnlyWhereThePictureDoesNotFit) {
@@ -124,6 +191,76 @@ TEST(ToneMap, ACodeIsTheNumberOfBordersUpToTheValue) {
     });
     EXPECT_EQ(codes[3 * i], expected) << image.pixels[i];
   }
+}
+
+/// Mean code of a large flat picture.
+double meanCode(float value, bool dithers) {
+  constexpr int kSide = 2 * kThresholdSide;
+  const auto codes = toneMap({kSide, kSide, 1, std::vector<float>(std::size_t{kSide} * kSide, value)}, 0,
+                             nullptr, false, dithers);
+  double sum = 0;
+  for (std::size_t i = 0; i < codes.size(); i += 3) sum += codes[i];
+  return sum / (kSide * kSide);
+}
+
+TEST(Dither, TheMeanIsTheValueAndNoPixelIsOffByACode) {
+  for (const float value : {0.001F, 0.02F, 0.1234F, 0.5F, 0.77F, 0.99F}) {
+    const double right = 255 * srgbEncode(static_cast<double>(value));
+    // Every one of 64² thresholds comes equally often.
+    EXPECT_NEAR(meanCode(value, true), right, 1.0 / (kThresholdSide * kThresholdSide));
+    const auto codes = toneMap({64, 64, 1, std::vector<float>(64 * 64, value)}, 0, nullptr, false, true);
+    for (const int code : codes) ASSERT_LT(std::abs(code - right), 1);
+  }
+}
+
+TEST(Dither, WhatIsACodeStaysThatCode) {
+  for (int code = 0; code < 256; ++code) {
+    const float v = static_cast<float>(srgbDecode(code / 255.0));
+    EXPECT_EQ(meanCode(v, true), code);
+  }
+}
+
+TEST(Dither, GreyStaysGreyAndAlphaIsRounded) {
+  const FloatImage image{64, 64, 3, std::vector<float>(64 * 64 * 3, 0.3F)};
+  const auto codes = toneMap(image, 0, nullptr, true, true);
+  for (std::size_t i = 0; i < codes.size(); i += 3)
+    ASSERT_TRUE(codes[i] == codes[i + 1] && codes[i] == codes[i + 2]);
+  const auto clear =
+      toneMapWithAlpha(image, {64, 64, 1, std::vector<float>(64 * 64, 0.7501F)}, 0, true, true);
+  for (std::size_t i = 3; i < clear.size(); i += 4) ASSERT_EQ(clear[i], 191);
+  EXPECT_EQ(toneMap({1, 1, 3, {NAN, 0, 0}}, 0, nullptr, true, true), (Bytes{255, 0, 255}));
+}
+
+TEST(Dither, ARegionHasThePatternOfItsPlace) {
+  FloatImage whole{50, 40, 1, {}};
+  for (int i = 0; i < 50 * 40; ++i) whole.pixels.push_back(static_cast<float>(i) / 2000);
+  const FloatImage part = cutOut(whole, {13, 7, 20, 11});
+  const auto all = toneMap(whole, 0, nullptr, true, true), own = toneMap(part, 0, nullptr, true, true);
+  for (std::size_t y = 0; y < 11; ++y)
+    for (std::size_t x = 0; x < 20; ++x)
+      ASSERT_EQ(own[3 * (y * 20 + x)], all[3 * ((y + 7) * 50 + x + 13)]) << x << ", " << y;
+}
+
+TEST(Dither, ThresholdsAreSpreadEvenly) {
+  constexpr int kSide = kThresholdSide;
+  std::vector<int> seen(std::size_t{kSide} * kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const double rank = orderedThreshold(x, y) * kSide * kSide - 0.5;
+      ASSERT_NEAR(rank, std::round(rank), 1e-9);
+      ++seen[static_cast<std::size_t>(std::lround(rank))];
+    }
+  for (const int times : seen) ASSERT_EQ(times, 1);
+  // In squares of 8×8 the mean varies less than a third of what chance would leave: 1/√12/8 = 0.036.
+  double squares = 0;
+  for (int y = 0; y < kSide; y += 8)
+    for (int x = 0; x < kSide; x += 8) {
+      double mean = 0;
+      for (int j = 0; j < 8; ++j)
+        for (int i = 0; i < 8; ++i) mean += orderedThreshold(x + i, y + j) / 64;
+      squares += (mean - 0.5) * (mean - 0.5) / 64;
+    }
+  EXPECT_LT(std::sqrt(squares), 0.012);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ constexpr const char* kUsage =
     "  --frame FILE      the whole-frame benchmark, 627 200 triangles and mirror balls\n"
     "  --mixed FILE      millimetre triangles, slivers and triangles of 120 km, 202 810 in all\n"
     "  --watchmaker FILE a watchmaker's bench at dusk, the large composition\n"
+    "  --breakfast FILE  a breakfast table by a window in the first sun\n"
     "  --valley FILE     eroded land with woods and meadows out of copies\n";
 
 struct NamedScene {
@@ -50,6 +51,7 @@ constexpr NamedScene kScenes[] = {
 constexpr NamedScene kLargeScenes[] = {{"frame", generator::buildFrame},
                                        {"mixed", generator::buildMixed},
                                        {"watchmaker", generator::buildWatchmaker},
+                                       {"breakfast", generator::buildBreakfast},
                                        {"valley", generator::buildValley}};
 
 /// The large scene that `option` asks for, or nullptr.

@@ -11,7 +11,7 @@ render() { # PICTURE SCENE [OPTIONS…]
   echo "$picture.png"
 }
 render cornell_box cornell_box --width 960 --height 540 --rays-per-pixel 64
-for bounces in 1 2 7; do render "mirror_box_$bounces" mirror_box --bounces "$bounces"; done
+for bounces in 1 2 7 32; do render "mirror_box_$bounces" mirror_box --bounces "$bounces"; done
 for scene in spot_cone emission shadow mirror refraction textured nested_glass; do render "$scene" "$scene"; done
 render anti_aliasing_1 anti_aliasing --rays-per-pixel 1
 render anti_aliasing_64 anti_aliasing --rays-per-pixel 64

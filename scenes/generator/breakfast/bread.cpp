@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "breakfast/table.h"
+#include "hash.h"
 #include "shapes/surface.h"
 #include "textures/noise.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-enum BreadSeries : std::uint32_t { kLoafBump = 22000, kLoafFlour = 22010, kLoafBlister = 22020, kPastryFlake = 22030 };
+enum BreadSeries : std::uint32_t { kLoafBump = 22000, kLoafFlour = 22010, kLoafBlister = 22020, kPastryFlake = 22030, kCrumbAt = 22040 };
 constexpr double kBoardTop = 2;
 
 /// How far a point of the top is inside one of the loaf's cuts, 0 to 1, and how far along its raised lip.
@@ -53,10 +54,10 @@ void addLoaf(const Table& w) {
     const glm::dvec2 top = kRadius * glm::dvec2(n.x, n.z), plane = top / 40.0 + 0.5;
     const Slash slash = n.y > 0 ? slashAt(top) : Slash{0, 0};
     const double burn = fractalNoise(plane, {11, 11}, kLoafBump + 5, 4), blister = fractalNoise(plane, {70, 70}, kLoafBlister, 2);
-    glm::dvec3 color = glm::mix(glm::dvec3(0.42, 0.19, 0.055), glm::dvec3(0.22, 0.075, 0.02), smoothStep(0.35, 0.7, burn));
+    glm::dvec3 color = glm::mix(glm::dvec3(0.62, 0.31, 0.10), glm::dvec3(0.34, 0.125, 0.03), smoothStep(0.35, 0.7, burn));
     color = glm::mix(color, glm::dvec3(0.55, 0.30, 0.10), 0.6 * smoothStep(0.62, 0.85, blister));
     const double flour = smoothStep(0.40, 0.72, fractalNoise(plane, {22, 22}, kLoafFlour, 5)) * smoothStep(-0.1, 0.5, n.y);
-    color = glm::mix(color, glm::dvec3(0.80, 0.74, 0.64), 0.75 * flour * (1 - slash.open));
+    color = glm::mix(color, glm::dvec3(0.80, 0.74, 0.64), 0.9 * flour * (1 - slash.open));
     color = glm::mix(color, glm::dvec3(0.70, 0.50, 0.27) * (0.75 + 0.4 * blister), slash.open);
     return glm::mix(color, glm::dvec3(0.17, 0.06, 0.018), 0.8 * slash.lip * (1 - slash.open));
   };
@@ -80,31 +81,54 @@ void addSlices(const Table& w) {
   lay({5.6, kBoardTop, -13.0}, -20, 61);
 }
 
+/// Layers of rolled dough lie one on another towards the tips: how far one is into its layer, 0 to 1.
+double layerAt(glm::dvec2 uv) {
+  const double layers = 4.6 * std::abs(2 * uv.y - 1) + 0.12 * std::sin(2 * pi * uv.x + 1);
+  return layers - std::floor(layers);
+}
+
 /// A crescent of rolled dough. `uv.y` along it, `uv.x` around.
 glm::dvec3 croissantPoint(glm::dvec2 uv) {
   const double angle = (uv.y - 0.5) * 2.5, around = 2 * pi * uv.x, bend = 5.6;
   // Each layer begins with a step and thins out towards the tip.
-  const double side = std::abs(2 * uv.y - 1), layers = 4.6 * side + 0.09 * std::sin(around + 1), step = layers - std::floor(layers);
+  const double side = std::abs(2 * uv.y - 1), step = layerAt(uv), ridge = smoothStep(0, 0.16, step) * (1 - smoothStep(0.16, 1, step));
   const double swell = std::pow(std::max(0.0, 1 - side * side), 0.62);
   const double flake = fractalNoise({uv.x, uv.y}, {9, 40}, kPastryFlake, 3) - 0.5;
-  const double r = 2.75 * swell * (1 - 0.17 * smoothStep(0, 1, step) * swell + 0.05 * flake) + 0.02;
+  const double r = 2.75 * swell * (0.90 + 0.15 * ridge * swell + 0.05 * flake) + 0.02;
   const glm::dvec3 outward(std::sin(angle), 0, std::cos(angle));
   const glm::dvec3 rim = (bend + r * std::cos(around)) * outward;
-  return {rim.x, std::max(-0.62 * r, 0.86 * r * std::sin(around)), rim.z - bend};
+  return {rim.x, std::max(-1.75, 0.86 * r * std::sin(around)), rim.z - bend};
 }
 
 void addCroissants(const Table& w) {
   SurfaceSpec croissant{.columns = 160, .rows = 420, .isRound = true, .position = croissantPoint};
   croissant.color = [](glm::dvec2 uv) {
-    const double side = std::abs(2 * uv.y - 1), layers = 4.6 * side + 0.09 * std::sin(2 * pi * uv.x + 1), step = layers - std::floor(layers);
+    const double step = layerAt(uv);
     const double bake = fractalNoise(uv, {6, 22}, kPastryFlake + 5, 4), flake = fractalNoise(uv, {14, 90}, kPastryFlake, 3);
-    glm::dvec3 color = glm::mix(glm::dvec3(0.58, 0.28, 0.07), glm::dvec3(0.80, 0.52, 0.20), smoothStep(0.35, 1.0, step));
-    color = glm::mix(color, glm::dvec3(0.36, 0.13, 0.025), 0.8 * smoothStep(0.45, 0.75, bake) * (1 - step));
+    glm::dvec3 color = glm::mix(glm::dvec3(0.74, 0.37, 0.09), glm::dvec3(0.93, 0.70, 0.36), 0.7 * std::max(smoothStep(0.5, 1.0, step), smoothStep(0.12, 0.0, step)));
+    color = glm::mix(color, glm::dvec3(0.44, 0.16, 0.03), 0.85 * smoothStep(0.40, 0.62, bake) * (1 - step));
     return color * (0.8 + 0.4 * flake);
   };
   const int mesh = w.addMesh("croissant", makeSurface(croissant), w.finishes.pastry);
-  w.placeMesh(mesh, {.position = {kPastry.x - 1.2, 2.75, kPastry.z + 4.6}, .turnY = 12});
-  w.placeMesh(mesh, {.position = {kPastry.x + 1.6, 2.75, kPastry.z - 0.6}, .turnY = -8});
+  w.placeMesh(mesh, {.position = {kPastry.x - 1.2, 2.62, kPastry.z + 4.6}, .turnY = 12});
+  w.placeMesh(mesh, {.position = {kPastry.x + 1.6, 2.62, kPastry.z - 0.6}, .turnY = -8});
+}
+
+/// Crumbs around what was cut and broken.
+void addCrumbs(const Table& w) {
+  SurfaceSpec crumb{.columns = 24, .rows = 16, .isRound = true, .position = {}};
+  crumb.position = [](glm::dvec2 uv) { return loafSphere(uv) * (0.7 + 0.6 * fractalNoise(uv, {5, 4}, kLoafBlister + 4, 2)); };
+  crumb.color = [](glm::dvec2 uv) { return glm::mix(glm::dvec3(0.85, 0.70, 0.45), glm::dvec3(0.45, 0.20, 0.06), smoothStep(0.4, 0.7, noise(uv, {3, 3}, kLoafFlour))); };
+  const int mesh = w.addMesh("crumb", untextured(makeSurface(crumb)), w.finishes.crust);
+  const auto scatter = [&](glm::dvec3 about, double reach, std::uint32_t count, std::uint32_t first) {
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      const double far = reach * std::sqrt(unitValue(kCrumbAt, i)), turn = 2 * pi * unitValue(kCrumbAt + 1, i), size = 0.06 + 0.16 * std::pow(unitValue(kCrumbAt + 2, i), 3);
+      w.placeMesh(mesh, {.position = about + glm::dvec3(far * std::cos(turn), 0.5 * size, far * std::sin(turn)), .scale = size, .turnY = 360 * unitValue(kCrumbAt + 3, i)});
+    }
+  };
+  scatter({2, kBoardTop, -12.6}, 8, 60, 0);
+  scatter({kPastry.x - 2, 0.9, kPastry.z}, 6.2, 46, 100);
+  scatter({16, 0.05, 24}, 7, 26, 200);
 }
 
 }  // namespace
@@ -116,6 +140,7 @@ void addBread(const Table& table) {
   addLoaf(table);
   addSlices(table);
   addCroissants(table);
+  addCrumbs(table);
 }
 
 }  // namespace generator

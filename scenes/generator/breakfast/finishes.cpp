@@ -1,5 +1,6 @@
 // Every material of the breakfast table, and the textures that only it has.
 #include "breakfast/table.h"
+#include "hash.h"
 #include "textures/noise.h"
 #include "textures/surfaces.h"
 
@@ -14,10 +15,11 @@ SurfaceFunction crumbSurface() {
   return [](glm::dvec2 uv) {
     const CellHit large = cellNoise(uv, {17, 17}, kCrumbHole), small = cellNoise(uv, {44, 44}, kCrumbHole + 1);
     const double size = 0.16 + 0.22 * noise(uv, {8, 8}, kCrumbHole + 2);
-    const double hole = std::max(smoothStep(size + 0.12, size - 0.05, large.nearest), 0.7 * smoothStep(0.34, 0.16, small.nearest));
+    const double wanted = unitValue(kCrumbHole + 3, large.id) < 0.45 ? size : 0.35 * size;
+    const double hole = std::max(smoothStep(wanted + 0.10, wanted - 0.10, large.nearest), 0.55 * smoothStep(0.30, 0.10, small.nearest));
     const double shade = fractalNoise(uv, {5, 5}, kCrumbShade, 4);
-    const glm::dvec3 color = glm::mix(glm::dvec3(0.74, 0.60, 0.40), glm::dvec3(0.40, 0.27, 0.14), 0.8 * hole);
-    return SurfacePoint{color * (0.85 + 0.25 * shade), -1.1e-3 * hole + 2e-4 * shade, 0.9};
+    const glm::dvec3 color = glm::mix(glm::dvec3(0.87, 0.76, 0.57), glm::dvec3(0.58, 0.42, 0.24), 0.8 * hole);
+    return SurfacePoint{color * (0.85 + 0.25 * shade), -0.8e-3 * hole + 2e-4 * shade, 0.9};
   };
 }
 
@@ -73,7 +75,9 @@ void addTableware(GltfBuilder& scene, TableFinishes& f) {
 
 void addFood(GltfBuilder& scene, TableFinishes& f) {
   const auto plain = [&](const MaterialSpec& spec) { return plainFinish(scene, spec); };
-  f.crust = plain(varnished("crust", glm::dvec3(1), 0.6));
+  MaterialSpec crust = varnished("crust", glm::dvec3(1), 0.75);
+  crust.specular = 0.5;
+  f.crust = plain(crust);
   f.crumb = bakedFinish(scene, matte("crumb", {}), {1024, 1024, 0.12}, crumbSurface());
   f.pastry = plain(varnished("pastry", glm::dvec3(1), 0.36));
   f.egg = plain(varnished("egg", {0.72, 0.46, 0.30}, 0.45));
@@ -88,9 +92,9 @@ void addFood(GltfBuilder& scene, TableFinishes& f) {
   leaf = withTextures(scene, leaf, {256, 512, 0.03}, leafSurface());
   leaf.emissionTexture = leaf.baseColorTexture;
   f.leaf = {scene.addMaterial(leaf), true};
-  MaterialSpec petal = matte("petal", {0.86, 0.78, 0.78});
+  MaterialSpec petal = matte("petal", glm::dvec3(1));
   petal.doubleSided = true;
-  petal.emission = {0.26, 0.22, 0.22};
+  petal.emission = {0.10, 0.08, 0.08};
   f.petal = plain(petal);
   f.pollen = plain(matte("pollen", {0.75, 0.50, 0.05}));
 }
@@ -104,7 +108,7 @@ void addSurroundings(GltfBuilder& scene, TableFinishes& f) {
   f.towel = bakedFinish(scene, linen, {1024, 1024, 0.06}, fabricSurface(90, {0.80, 0.78, 0.74}));
   f.board = bakedFinish(scene, varnished("board", {}, 0.45), {2048, 1024, 0.5}, woodSurface(2));
   f.spindle = plain(varnished("spindle", {0.52, 0.32, 0.15}, 0.4));
-  f.paint = plain(varnished("white paint", {0.74, 0.74, 0.71}, 0.35));
+  f.paint = plain(varnished("white paint", {0.84, 0.83, 0.79}, 0.35));
   f.cane = plain(varnished("cane", {0.45, 0.28, 0.12}, 0.4));
   const auto room = [&](const char* name, double metres, glm::dvec3 glow, const SurfaceFunction& surface) {
     MaterialSpec spec = withTextures(scene, matte(name, {}), {1024, 1024, metres}, surface);

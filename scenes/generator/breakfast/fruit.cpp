@@ -61,9 +61,9 @@ void addFruit(const Table& table) {
                              table.addMesh("ripe cherry", fruit, table.finishes.cherries[1])},
                             table.addMesh("cherry stem", makeWire(smoothPath({{0, 0.7, 0}, {0.05, 1.6, 0}, {0.35, 2.8, 0.1}, {0.9, 4.0, 0.1}, {1.1, 4.5, 0.15}}, 8), 0.07, 12), table.finishes.stem)};
   addBowl(table.at({.position = {kFruit.x, 0, kFruit.z}}), meshes);
-  std::uint32_t id = 100;
+  std::uint32_t id = 101;
   for (const glm::dvec2 at : {glm::dvec2(0, 0), {2.9, 0.9}, {-5.2, 3.4}, {9.6, 4.2}})
-    addCherry(table, meshes, {kCherry.x + at.x, 0.95 * kCherryRadius, kCherry.z + at.y}, id++, 70);
+    addCherry(table, meshes, {kCherry.x + at.x, 0.95 * kCherryRadius, kCherry.z + at.y}, id++, 96);
   const int orange = table.addMesh("orange", makeFruit(3.6, 0.3, -0.02), table.finishes.orange);
   table.placeMesh(orange, {.position = {kOrange.x, 3.35, kOrange.z}, .turn = turnAbout({1, 0, 0.4}, 32)});
   table.placeMesh(orange, {.position = {kOtherOrange.x, 3.2, kOtherOrange.z}, .scale = 0.96, .turn = turnAbout({0.3, 0, 1}, 118)});

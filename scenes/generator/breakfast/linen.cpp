@@ -18,8 +18,8 @@ struct Fold {
   double height, width;
 };
 constexpr Fold kFolds[] = {
-    {{-60, 40}, {-20, 24}, 0.6, 2.2}, {{-48, 46}, {-6, 31}, 0.7, 1.6},  {{-30, 52}, {14, 36}, 0.5, 2.0},
-    {{0, 30}, {30, 44}, 0.5, 1.5},    {{-66, 8}, {-42, 20}, 0.8, 2.0},  {{44, 8}, {66, 26}, 0.7, 1.8},
+    {{-64, 44}, {-22, 27}, 0.8, 2.4}, {{-52, 52}, {-4, 33}, 0.55, 1.9},  {{-34, 56}, {16, 37}, 0.6, 2.1},
+    {{-2, 29}, {34, 46}, 0.5, 2.0},    {{-66, 8}, {-42, 20}, 0.8, 2.0},  {{44, 8}, {66, 26}, 0.7, 1.8},
     {{40, 24}, {58, 44}, 0.7, 1.7},   {{-56, -34}, {-30, -26}, 0.5, 1.8}, {{16, -40}, {40, -36}, 0.5, 1.6},
     {{-12, 27}, {4, 24}, 0.35, 1.2}};
 
@@ -34,9 +34,9 @@ double foldHeight(const Fold& fold, glm::dvec2 at) {
 double clothHeight(glm::dvec2 at) {
   double freedom = 1;
   for (const Footprint& f : kFootprints)
-    freedom *= smoothStep(f.radius + 0.3, f.radius + 6, glm::distance(at, {f.x, f.z}));
+    freedom *= smoothStep(f.radius + 0.3, f.radius + 4, glm::distance(at, {f.x, f.z}));
   const glm::dvec2 uv = at / 200.0 + 0.5;
-  double height = 0.45 * (fractalNoise(uv, {11, 9}, kClothWave, 2) - 0.5) + 0.05 * (noise(uv, {52, 44}, kClothRipple) - 0.5);
+  double height = 0.75 * (fractalNoise(uv, {10, 9}, kClothWave, 2) - 0.5) + 0.05 * (noise(uv, {52, 44}, kClothRipple) - 0.5);
   for (const Fold& fold : kFolds) height += foldHeight(fold, at);
   height *= freedom;
   for (const double x : {-52.0, -10.0, 36.0}) height += 0.10 / (1 + 9 * (at.x - x) * (at.x - x));
@@ -53,7 +53,7 @@ double stripe(double fromMiddle) {
 }
 
 void addTablecloth(const Table& w) {
-  SurfaceSpec cloth{.columns = 620, .rows = 520, .position = {}, .repeat = {10, 9}};
+  SurfaceSpec cloth{.columns = 760, .rows = 640, .position = {}, .repeat = {10, 9}};
   cloth.position = [](glm::dvec2 uv) {
     const double x = (2 * uv.x - 1) * kHalfWidth, along = kFront - uv.y * (kFront - kBack + kHang);
     const glm::dvec2 at(x, std::max(along, kBack));

@@ -31,9 +31,14 @@ Mesh makePetal() {
   SurfaceSpec petal{.columns = 24, .rows = 18, .position = {}};
   petal.position = [](glm::dvec2 uv) {
     const double t = 1 - uv.y, side = 2 * uv.x - 1;
-    const double half = 1.25 * std::pow(t, 0.62) * std::sqrt(std::max(0.0, 1.02 - t * t * t * 0.35));
-    const double length = 1.75 * t - 0.22 * t * t * (1 - std::abs(side)) - 0.25 * t * side * side;
-    return glm::dvec3(side * half, 0.5 * t * t + 0.18 * side * side * t + 0.04 * std::sin(5 * side + 3 * t) * t, 0.12 + length);
+    const double half = 1.12 * std::pow(t, 0.85) * std::sqrt(std::max(0.0, 1.02 - t * t * t * 0.35));
+    const double length = 1.75 * t - 0.34 * t * t * (1 - std::abs(side)) - 0.42 * t * side * side;
+    return glm::dvec3(side * half, 0.42 * t * t + 0.42 * side * side * t + 0.04 * std::sin(5 * side + 3 * t) * t, 0.12 + length);
+  };
+  // White at the foot, rose at the rim.
+  petal.color = [](glm::dvec2 uv) {
+    const double t = 1 - uv.y, side = 2 * uv.x - 1;
+    return glm::mix(glm::dvec3(0.88, 0.86, 0.80), glm::dvec3(0.86, 0.50, 0.56), std::min(1.0, 0.85 * t * t + 0.25 * side * side));
   };
   return untextured(makeSurface(petal));
 }
@@ -86,6 +91,12 @@ void addSprig(const Table& table) {
   addStem(w, meshes, {{-2.2, 1.4, 0.6}, {-0.6, 8, 0.2}, {0.5, 16, 0}, {2.4, 22, 0.6}, {5.4, 27.5, 1.2}, {7.6, 31, 2.5}}, 0, true);
   addStem(w, meshes, {{2.4, 1.3, -0.4}, {0.9, 8, 0}, {-0.5, 16, 0.2}, {-3.4, 21.5, 1.0}, {-6.6, 25.4, 2.0}, {-8.6, 26.6, 3.4}}, 1, true);
   addStem(w, meshes, {{0.4, 1.5, 1.8}, {0.2, 8, 0.5}, {-0.1, 16, -0.4}, {-0.6, 22, -1.2}, {-1.8, 28, -1.6}, {-1.5, 33.5, -0.4}}, 2, true);
+  // Petals that fell.
+  for (std::uint32_t i = 0; i < 7; ++i) {
+    constexpr glm::dvec2 kFallen[] = {{-13, 42}, {-17.5, 51}, {-6, 49.5}, {-38, 50}, {2, 38}, {-49, 44}, {-27, 55}};
+    const glm::dquat way = turnAbout({0, 1, 0}, 360 * unitValue(kPetalTurn, 50 + i)) * turnAbout({1, 0, 0}, i % 3 == 0 ? 165 : 8);
+    w.placeMesh(meshes.petal, {.position = {kFallen[i].x, i % 3 == 0 ? 0.42 : 0.08, kFallen[i].y}, .scale = 0.95, .turn = way});
+  }
   addStem(w, meshes, {{-0.8, 1.5, -1.8}, {-0.3, 8, -0.6}, {0.4, 16, 0.4}, {0.9, 19.5, 2.2}, {2.6, 21.5, 5.0}}, 3, true);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-enum GardenSeries : std::uint32_t { kFoliage = 25000, kDiscAt = 25010, kDiscSize = 25030, kFoldPhase = 25040 };
+enum GardenSeries : std::uint32_t { kFoliage = 25000, kDiscAt = 25010, kDiscSize = 25030, kFoldPhase = 25040, kTrunk = 25050 };
 constexpr glm::dvec2 kOpeningLow(-64, -2), kOpeningHigh(26, 112);  // x and y
 constexpr double kWallDepth = 14;
 
@@ -110,6 +110,17 @@ std::vector<std::uint8_t> gardenPicture() {
       const double sky = smoothStep(0.58, 0.95, up + 0.35 * (trees - 0.5) + 0.25 * (broad - 0.5));
       color = glm::mix(color * (0.75 + 0.5 * trees), glm::dvec3(0.78, 0.86, 0.92), sky);
       picture.push_back(color);
+    }
+  }
+  // Trunks, too near the lens' blur to have bark.
+  for (std::uint32_t i = 0; i < 9; ++i) {
+    const double middle = kWidth * (0.05 + 0.9 * unitValue(kTrunk, i)), half = 14 + 26 * unitValue(kTrunk + 1, i), top = kHeight * (0.12 + 0.35 * unitValue(kTrunk + 2, i));
+    for (int y = static_cast<int>(top); y < kHeight * 6 / 10; ++y) {
+      for (int x = std::max(0, static_cast<int>(middle - 2 * half)); x < std::min(kWidth, static_cast<int>(middle + 2 * half)); ++x) {
+        const double dark = smoothStep(1.5, 0.4, std::abs(x - middle) / half) * smoothStep(top, top + 160, y) * smoothStep(kHeight * 0.6, kHeight * 0.5, y);
+        glm::dvec3& pixel = picture[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)];
+        pixel = glm::mix(pixel, glm::dvec3(0.055, 0.06, 0.03), 0.55 * dark);
+      }
     }
   }
   constexpr std::uint32_t kDiscs = 300;

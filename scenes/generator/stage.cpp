@@ -10,7 +10,7 @@ void Stage::add(const std::string& name, Mesh mesh, const Finish& finish, const 
 }
 
 void Stage::add(const std::string& name, const Plate& plate, const Finish& faces, const Finish& edges,
-                   const Placement& inner) const {
+                const Placement& inner) const {
   add(name, plate.faces, faces, inner);
   add(name + " edges", plate.edges, edges, inner);
 }

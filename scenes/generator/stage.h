@@ -25,7 +25,7 @@ using Assembly = std::vector<PlacedMesh>;
 
 struct Stage {
   GltfBuilder& scene;
-  Placement place;               ///< of the origin of what is added; its scale makes metres of the stage's unit
+  Placement place;  ///< of the origin of what is added; its scale makes metres of the stage's unit
   Assembly* assembly = nullptr;  ///< where there is one, parts go there and not into the scene
 
   void add(const std::string& name, Mesh mesh, const Finish& finish, const Placement& inner = {}) const;
@@ -43,7 +43,9 @@ struct FurnishedStage : Stage {
   Finishes finishes;
 
   /// The same stage with another origin, itself placed within this one.
-  FurnishedStage at(const Placement& inner) const { return {{scene, within(place, inner), assembly}, finishes}; }
+  FurnishedStage at(const Placement& inner) const {
+    return {{scene, within(place, inner), assembly}, finishes};
+  }
 };
 
 /// The turn that takes +Y to `direction`.

@@ -8,15 +8,23 @@ namespace generator {
 namespace {
 
 /// Numbers that differ between the textures of this file.
-enum BreakfastTextureSeries : std::uint32_t { kCrumbHole = 20000, kCrumbShade = 20010, kPeel = 20020, kLeafVein = 20030, kSlub = 20040 };
+enum BreakfastTextureSeries : std::uint32_t {
+  kCrumbHole = 20000,
+  kCrumbShade = 20010,
+  kPeel = 20020,
+  kLeafVein = 20030,
+  kSlub = 20040
+};
 
 /// The cut face of a loaf: holes of all sizes in a cream-coloured sponge.
 SurfaceFunction crumbSurface() {
   return [](glm::dvec2 uv) {
-    const CellHit large = cellNoise(uv, {17, 17}, kCrumbHole), small = cellNoise(uv, {44, 44}, kCrumbHole + 1);
+    const CellHit large = cellNoise(uv, {17, 17}, kCrumbHole),
+                  small = cellNoise(uv, {44, 44}, kCrumbHole + 1);
     const double size = 0.16 + 0.22 * noise(uv, {8, 8}, kCrumbHole + 2);
     const double wanted = unitValue(kCrumbHole + 3, large.id) < 0.45 ? size : 0.35 * size;
-    const double hole = std::max(smoothStep(wanted + 0.10, wanted - 0.10, large.nearest), 0.55 * smoothStep(0.30, 0.10, small.nearest));
+    const double hole = std::max(smoothStep(wanted + 0.10, wanted - 0.10, large.nearest),
+                                 0.55 * smoothStep(0.30, 0.10, small.nearest));
     const double shade = fractalNoise(uv, {5, 5}, kCrumbShade, 4);
     const glm::dvec3 color = glm::mix(glm::dvec3(0.87, 0.76, 0.57), glm::dvec3(0.58, 0.42, 0.24), 0.8 * hole);
     return SurfacePoint{color * (0.85 + 0.25 * shade), -0.8e-3 * hole + 2e-4 * shade, 0.9};
@@ -48,7 +56,9 @@ SurfaceFunction leafSurface() {
 /// Fine linen from where one cannot tell its threads: some of them are thicker for a while.
 SurfaceFunction linenSurface(glm::dvec3 color) {
   return [color](glm::dvec2 uv) {
-    const double slub = 0.5 * (fractalNoise(uv, {9, 260}, kSlub, 2) + fractalNoise(uv, {260, 9}, kSlub + 4, 2)), broad = fractalNoise(uv, {3, 3}, kSlub + 8, 3);
+    const double slub =
+                     0.5 * (fractalNoise(uv, {9, 260}, kSlub, 2) + fractalNoise(uv, {260, 9}, kSlub + 4, 2)),
+                 broad = fractalNoise(uv, {3, 3}, kSlub + 8, 3);
     return SurfacePoint{color * (0.90 + 0.12 * slub + 0.05 * broad), 3.5e-5 * slub, 0.9};
   };
 }
@@ -82,7 +92,6 @@ void addFood(GltfBuilder& scene, TableFinishes& f) {
   f.pastry = plain(varnished("pastry", glm::dvec3(1), 0.36));
   f.egg = plain(varnished("egg", {0.72, 0.46, 0.30}, 0.45));
   f.orange = bakedFinish(scene, varnished("orange", {}, 0.3), {1024, 512, 0.24}, peelSurface());
-  f.butter = plain(varnished("butter", {0.85, 0.68, 0.26}, 0.3));
   f.cherries = {plain(varnished("cherry", {0.28, 0.008, 0.014}, 0.08)),
                 plain(varnished("ripe cherry", {0.10, 0.004, 0.010}, 0.08))};
   f.stem = plain(varnished("stem", {0.13, 0.17, 0.035}, 0.5));

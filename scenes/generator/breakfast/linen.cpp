@@ -17,11 +17,11 @@ struct Fold {
   glm::dvec2 from, to;  // x and z
   double height, width;
 };
-constexpr Fold kFolds[] = {
-    {{-64, 44}, {-22, 27}, 0.8, 2.4}, {{-52, 52}, {-4, 33}, 0.55, 1.9},  {{-34, 56}, {16, 37}, 0.6, 2.1},
-    {{-2, 29}, {34, 46}, 0.5, 2.0},    {{-66, 8}, {-42, 20}, 0.8, 2.0},  {{44, 8}, {66, 26}, 0.7, 1.8},
-    {{40, 24}, {58, 44}, 0.7, 1.7},   {{-56, -34}, {-30, -26}, 0.5, 1.8}, {{16, -40}, {40, -36}, 0.5, 1.6},
-    {{-12, 27}, {4, 24}, 0.35, 1.2}};
+constexpr Fold kFolds[] = {{{-64, 44}, {-22, 27}, 0.8, 2.4}, {{-52, 52}, {-4, 33}, 0.55, 1.9},
+                           {{-34, 56}, {16, 37}, 0.6, 2.1},  {{-2, 29}, {34, 46}, 0.5, 2.0},
+                           {{-66, 8}, {-42, 20}, 0.8, 2.0},  {{44, 8}, {66, 26}, 0.7, 1.8},
+                           {{40, 24}, {58, 44}, 0.7, 1.7},   {{-56, -34}, {-30, -26}, 0.5, 1.8},
+                           {{16, -40}, {40, -36}, 0.5, 1.6}, {{-12, 27}, {4, 24}, 0.35, 1.2}};
 
 double foldHeight(const Fold& fold, glm::dvec2 at) {
   const glm::dvec2 along = fold.to - fold.from, rel = at - fold.from;
@@ -36,7 +36,8 @@ double clothHeight(glm::dvec2 at) {
   for (const Footprint& f : kFootprints)
     freedom *= smoothStep(f.radius + 0.3, f.radius + 4, glm::distance(at, {f.x, f.z}));
   const glm::dvec2 uv = at / 200.0 + 0.5;
-  double height = 0.75 * (fractalNoise(uv, {10, 9}, kClothWave, 2) - 0.5) + 0.05 * (noise(uv, {52, 44}, kClothRipple) - 0.5);
+  double height = 0.75 * (fractalNoise(uv, {10, 9}, kClothWave, 2) - 0.5) +
+                  0.05 * (noise(uv, {52, 44}, kClothRipple) - 0.5);
   for (const Fold& fold : kFolds) height += foldHeight(fold, at);
   height *= freedom;
   for (const double x : {-52.0, -10.0, 36.0}) height += 0.10 / (1 + 9 * (at.x - x) * (at.x - x));
@@ -64,7 +65,8 @@ void addTablecloth(const Table& w) {
     return glm::dvec3(x, clothHeight(at) - down - 0.02, at.y - kBend * std::sin(angle));
   };
   cloth.color = [](glm::dvec2 uv) {
-    const double x = std::abs((2 * uv.x - 1) * kHalfWidth - 6), z = std::abs(kFront - uv.y * (kFront - kBack + kHang) + 5);
+    const double x = std::abs((2 * uv.x - 1) * kHalfWidth - 6),
+                 z = std::abs(kFront - uv.y * (kFront - kBack + kHang) + 5);
     const double blue = std::min(1.0, stripe(x - 10) + stripe(z + 2));
     return glm::mix(glm::dvec3(1), glm::dvec3(0.36, 0.50, 0.74), 0.8 * blue);
   };

@@ -1,5 +1,5 @@
-// Balls sink, and are pushed apart and out of what they lie in, one after another, until they rest. Sums, products and
-// square roots: the same bits on every machine.
+// Balls sink, and are pushed apart and out of what they lie in, one after another, until they rest. Sums,
+// products and square roots: the same bits on every machine.
 #include "shapes/heap.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace generator {
 namespace {
 
-constexpr int kIterations = 12;
+constexpr int kHeapPasses = 12;
 constexpr double kSink = 0.03;  // radii that a ball falls in each step
 
 void pushApart(std::vector<glm::dvec3>& balls, double radius) {
@@ -46,13 +46,14 @@ std::vector<glm::dvec3> heapOfBalls(const HeapSpec& spec) {
   std::vector<glm::dvec3> balls;
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(spec.count); ++i) {
     const auto chance = [&](std::uint32_t k) { return 2 * unitValue(spec.series + k, i) - 1; };
-    balls.emplace_back(0.7 * spec.spread * chance(0), spec.start + 0.4 * spec.radius * i, 0.7 * spec.spread * chance(1));
+    balls.emplace_back(0.7 * spec.spread * chance(0), spec.start + 0.4 * spec.radius * i,
+                       0.7 * spec.spread * chance(1));
   }
   for (int step = 0; step < spec.steps; ++step) {
     // At the end nothing sinks any more, so that nothing is left inside another.
     const double sink = kSink * spec.radius * std::min(1.0, 4.0 * (spec.steps - 1 - step) / spec.steps);
     for (glm::dvec3& ball : balls) ball.y -= sink;
-    for (int k = 0; k < kIterations; ++k) {
+    for (int k = 0; k < kHeapPasses; ++k) {
       pushApart(balls, spec.radius);
       for (glm::dvec3& ball : balls) pushOut(ball, spec);
     }

@@ -25,7 +25,9 @@ Mesh makeSurface(const SurfaceSpec& spec) {
       // Where a row is a point nothing moves along u: a little beside it something does.
       const glm::dvec2 beside(uv.x, std::clamp(uv.y, small.y, 1 - small.y));
       const glm::dvec3 along = slope(spec, beside, {small.x, 0}), up = slope(spec, uv, {0, small.y});
-      addVertex(mesh, {spec.position(uv), glm::cross(along, up), along,
+      addVertex(mesh, {spec.position(uv),
+                       glm::cross(along, up),
+                       along,
                        {column * cell.x * spec.repeat.x, (1 - uv.y) * spec.repeat.y}});
       if (spec.color) mesh.colors.emplace_back(glm::vec4(glm::vec3(spec.color(uv)), 1.0F));
     }

@@ -86,6 +86,26 @@ MaterialSpec glass(const std::string& name, double ior) {
   return spec;
 }
 
+MaterialSpec metal(const std::string& name, glm::dvec3 color, double roughness) {
+  MaterialSpec spec = mirror(name, color);
+  spec.roughness = roughness;
+  return spec;
+}
+
+MaterialSpec varnished(const std::string& name, glm::dvec3 color, double roughness) {
+  MaterialSpec spec = matte(name, color);
+  spec.specular = 1;
+  spec.roughness = roughness;
+  return spec;
+}
+
+MaterialSpec tinted(const std::string& name, double ior, glm::dvec3 color, double distance) {
+  MaterialSpec spec = glass(name, ior);
+  spec.attenuationColor = color;
+  spec.attenuationDistance = distance;
+  return spec;
+}
+
 MaterialSpec lamp(const std::string& name, glm::dvec3 radiance) {
   MaterialSpec spec = matte(name, glm::dvec3(0));
   spec.emission = radiance;

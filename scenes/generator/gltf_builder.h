@@ -44,6 +44,12 @@ struct MaterialSpec {
 MaterialSpec matte(const std::string& name, glm::dvec3 color);
 MaterialSpec mirror(const std::string& name, glm::dvec3 color);
 MaterialSpec glass(const std::string& name, double ior);
+/// A mirror that roughness dulls.
+MaterialSpec metal(const std::string& name, glm::dvec3 color, double roughness);
+/// A dielectric that reflects as Fresnel says.
+MaterialSpec varnished(const std::string& name, glm::dvec3 color, double roughness);
+/// Glass that lets `color` through after `distance` metres.
+MaterialSpec tinted(const std::string& name, double ior, glm::dvec3 color, double distance);
 /// Black but for its own light.
 MaterialSpec lamp(const std::string& name, glm::dvec3 radiance);
 

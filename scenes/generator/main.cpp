@@ -22,6 +22,8 @@ constexpr const char* kUsage =
     "  --frame FILE      the whole-frame benchmark, 627 200 triangles and mirror balls\n"
     "  --mixed FILE      millimetre triangles, slivers and triangles of 120 km, 202 810 in all\n"
     "  --watchmaker FILE a watchmaker's bench at dusk, the large composition\n"
+    "  --breakfast FILE  a breakfast table by a window in the first sun\n"
+    "  --diner FILE      a diner of chrome and neon after the rain\n"
     "  --valley FILE     eroded land with woods and meadows out of copies\n";
 
 struct NamedScene {
@@ -47,10 +49,10 @@ constexpr NamedScene kScenes[] = {
 };
 
 /// Too large to be kept: written when asked for, as --NAME FILE.
-constexpr NamedScene kLargeScenes[] = {{"frame", generator::buildFrame},
-                                       {"mixed", generator::buildMixed},
-                                       {"watchmaker", generator::buildWatchmaker},
-                                       {"valley", generator::buildValley}};
+constexpr NamedScene kLargeScenes[] = {
+    {"frame", generator::buildFrame},           {"mixed", generator::buildMixed},
+    {"watchmaker", generator::buildWatchmaker}, {"breakfast", generator::buildBreakfast},
+    {"diner", generator::buildDiner},           {"valley", generator::buildValley}};
 
 /// The large scene that `option` asks for, or nullptr.
 const NamedScene* largeScene(std::string_view option) {

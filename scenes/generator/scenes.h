@@ -25,6 +25,10 @@ void buildFrame(GltfBuilder& scene);
 void buildMixed(GltfBuilder& scene);
 /// A composition of 1.5 million triangles: a watchmaker's bench at dusk.
 void buildWatchmaker(GltfBuilder& scene);
+/// A composition: a breakfast table by a window in the first sun.
+void buildBreakfast(GltfBuilder& scene);
+/// A composition: a diner of chrome and neon after the rain, at dusk.
+void buildDiner(GltfBuilder& scene);
 /// Eroded land with woods and meadows, 6 million triangles of copies.
 void buildValley(GltfBuilder& scene);
 

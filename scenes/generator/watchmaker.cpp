@@ -61,7 +61,7 @@ void addLights(const Workshop& workshop) {
 }  // namespace
 
 void buildWatchmaker(GltfBuilder& scene) {
-  const Workshop workshop{scene, addFinishes(scene), {.scale = kMillimetre}};
+  const Workshop workshop{{scene, {.scale = kMillimetre}}, addFinishes(scene)};
   addBench(workshop);
   const Assembly movement = makeMovement(workshop);
   addWatch(workshop, movement);

@@ -9,27 +9,6 @@ namespace {
 constexpr glm::dvec3 kGold(0.98, 0.74, 0.38), kBrass(0.90, 0.68, 0.32), kSteel(0.62, 0.61, 0.60),
     kNickel(0.74, 0.70, 0.63), kBlue(0.09, 0.17, 0.62), kDarkNickel(0.30, 0.29, 0.29);
 
-MaterialSpec metal(const std::string& name, glm::dvec3 color, double roughness) {
-  MaterialSpec spec = mirror(name, color);
-  spec.roughness = roughness;
-  return spec;
-}
-
-/// A dielectric that reflects as Fresnel says.
-MaterialSpec varnished(const std::string& name, glm::dvec3 color, double roughness) {
-  MaterialSpec spec = matte(name, color);
-  spec.specular = 1;
-  spec.roughness = roughness;
-  return spec;
-}
-
-MaterialSpec tinted(const std::string& name, double ior, glm::dvec3 color, double distance) {
-  MaterialSpec spec = glass(name, ior);
-  spec.attenuationColor = color;
-  spec.attenuationDistance = distance;
-  return spec;
-}
-
 /// Walls and floor glow as the lamps' light would make them, were light that they throw back followed.
 Finish roomFinish(GltfBuilder& scene, const std::string& name, double metres,
                   const SurfaceFunction& surface) {
@@ -40,9 +19,9 @@ Finish roomFinish(GltfBuilder& scene, const std::string& name, double metres,
 }
 
 void addMetals(GltfBuilder& scene, Finishes& f) {
-  const auto plain = [&](const MaterialSpec& spec) { return Finish{scene.addMaterial(spec), false}; };
+  const auto plain = [&](const MaterialSpec& spec) { return plainFinish(scene, spec); };
   const auto baked = [&](const MaterialSpec& spec, const BakeSize& size, const SurfaceFunction& surface) {
-    return Finish{scene.addMaterial(withTextures(scene, spec, size, surface)), true};
+    return bakedFinish(scene, spec, size, surface);
   };
   f.polishedGold = plain(metal("polished gold", kGold, 0.06));
   f.polishedBrass = plain(metal("polished brass", kBrass, 0.08));
@@ -59,7 +38,7 @@ void addMetals(GltfBuilder& scene, Finishes& f) {
 }
 
 void addGlasses(GltfBuilder& scene, Finishes& f) {
-  const auto plain = [&](const MaterialSpec& spec) { return Finish{scene.addMaterial(spec), false}; };
+  const auto plain = [&](const MaterialSpec& spec) { return plainFinish(scene, spec); };
   f.crystal = plain(tinted("crystal", 1.52, {0.93, 0.97, 0.95}, 0.05));
   f.ruby = plain(tinted("ruby", 1.76, {0.85, 0.03, 0.10}, 0.0012));
   f.oil = plain(tinted("oil", 1.47, {0.85, 0.45, 0.06}, 0.012));
@@ -69,9 +48,9 @@ void addGlasses(GltfBuilder& scene, Finishes& f) {
 }
 
 void addBenchFinishes(GltfBuilder& scene, Finishes& f) {
-  const auto plain = [&](const MaterialSpec& spec) { return Finish{scene.addMaterial(spec), false}; };
+  const auto plain = [&](const MaterialSpec& spec) { return plainFinish(scene, spec); };
   const auto baked = [&](const MaterialSpec& spec, const BakeSize& size, const SurfaceFunction& surface) {
-    return Finish{scene.addMaterial(withTextures(scene, spec, size, surface)), true};
+    return bakedFinish(scene, spec, size, surface);
   };
   f.walnut = baked(varnished("walnut", {}, 0.4), {3072, 1536, 1.0}, woodSurface(3));
   f.darkWood = baked(varnished("dark wood", {}, 0.4), {1024, 1024, 0.2}, woodSurface(1));

@@ -277,7 +277,7 @@ void addPlate(const Workshop& w, const SmallParts& parts) {
 
 Assembly makeMovement(const Workshop& workshop) {
   Assembly movement;
-  const Workshop w{workshop.scene, workshop.finishes, {}, &movement};
+  const Workshop w{{workshop.scene, {}, &movement}, workshop.finishes};
   const SmallParts parts = makeSmallParts(w);
   addPlate(w, parts);
   addTrain(w);

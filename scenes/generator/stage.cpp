@@ -1,21 +1,21 @@
 // Placing, and turns.
-#include "watchmaker/workshop.h"
+#include "stage.h"
 
 #include <cmath>
 
 namespace generator {
 
-void Workshop::add(const std::string& name, Mesh mesh, const Finish& finish, const Placement& inner) const {
+void Stage::add(const std::string& name, Mesh mesh, const Finish& finish, const Placement& inner) const {
   placeMesh(addMesh(name, std::move(mesh), finish), inner);
 }
 
-void Workshop::add(const std::string& name, const Plate& plate, const Finish& faces, const Finish& edges,
-                   const Placement& inner) const {
+void Stage::add(const std::string& name, const Plate& plate, const Finish& faces, const Finish& edges,
+                const Placement& inner) const {
   add(name, plate.faces, faces, inner);
   add(name + " edges", plate.edges, edges, inner);
 }
 
-void Workshop::placeMesh(int mesh, const Placement& inner) const {
+void Stage::placeMesh(int mesh, const Placement& inner) const {
   if (assembly) {
     assembly->push_back({mesh, within(place, inner)});
   } else {
@@ -23,13 +23,20 @@ void Workshop::placeMesh(int mesh, const Placement& inner) const {
   }
 }
 
-void Workshop::placeAll(const Assembly& parts) const {
+void Stage::placeAll(const Assembly& parts) const {
   for (const PlacedMesh& part : parts) placeMesh(part.mesh, part.place);
 }
 
-int Workshop::addMesh(const std::string& name, Mesh mesh, const Finish& finish) const {
+int Stage::addMesh(const std::string& name, Mesh mesh, const Finish& finish) const {
   const int geometry = scene.addGeometry(finish.isTextured ? std::move(mesh) : untextured(std::move(mesh)));
   return scene.addMesh(name, geometry, finish.material);
+}
+
+Finish plainFinish(GltfBuilder& scene, const MaterialSpec& spec) { return {scene.addMaterial(spec), false}; }
+
+Finish bakedFinish(GltfBuilder& scene, const MaterialSpec& spec, const BakeSize& size,
+                   const SurfaceFunction& surface) {
+  return {scene.addMaterial(withTextures(scene, spec, size, surface)), true};
 }
 
 glm::dquat upTo(glm::dvec3 direction) {

@@ -42,6 +42,12 @@ void addQuad(Mesh& mesh, glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v, glm::dve
   addTriangles(mesh, first, first + 1, first + 2, first + 3);
 }
 
+Mesh makeQuad(glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v, glm::dvec2 repeat) {
+  Mesh mesh;
+  addQuad(mesh, corner, u, v, repeat);
+  return mesh;
+}
+
 void addBox(Mesh& mesh, glm::dvec3 low, glm::dvec3 high) {
   const glm::dvec3 d = high - low;
   const glm::dvec3 x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);

@@ -27,6 +27,9 @@ glm::dvec2 onCircle(int i, int n);
 /// points up; tangents go with it.
 void addQuad(Mesh& mesh, glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v, glm::dvec2 repeat = {1, 1});
 
+/// That rectangle alone.
+Mesh makeQuad(glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v, glm::dvec2 repeat = {1, 1});
+
 /// An axis-aligned box with outward faces.
 void addBox(Mesh& mesh, glm::dvec3 low, glm::dvec3 high);
 

@@ -39,6 +39,14 @@ Finish bakedFinish(GltfBuilder& scene, const MaterialSpec& spec, const BakeSize&
   return {scene.addMaterial(withTextures(scene, spec, size, surface)), true};
 }
 
+Finish glowingFinish(GltfBuilder& scene, const std::string& name, double metres, glm::dvec3 glow,
+                     const SurfaceFunction& surface) {
+  MaterialSpec spec = withTextures(scene, matte(name, {}), {1024, 1024, metres}, surface);
+  spec.emission = glow;
+  spec.emissionTexture = spec.baseColorTexture;
+  return {scene.addMaterial(spec), true};
+}
+
 glm::dquat upTo(glm::dvec3 direction) {
   const glm::dvec3 to = glm::normalize(direction), up(0, 1, 0);
   if (to.y < -0.999999) return {0, 1, 0, 0};

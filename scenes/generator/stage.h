@@ -58,4 +58,9 @@ Finish plainFinish(GltfBuilder& scene, const MaterialSpec& spec);
 Finish bakedFinish(GltfBuilder& scene, const MaterialSpec& spec, const BakeSize& size,
                    const SurfaceFunction& surface);
 
+/// A baked matte surface that glows in its own colours times `glow`, as light that is thrown back would make
+/// it, were it followed.
+Finish glowingFinish(GltfBuilder& scene, const std::string& name, double metres, glm::dvec3 glow,
+                     const SurfaceFunction& surface);
+
 }  // namespace generator

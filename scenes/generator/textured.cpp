@@ -60,12 +60,6 @@ Bytes leafPicture() {
   });
 }
 
-Mesh makeQuad(glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v, glm::dvec2 repeat = {1, 1}) {
-  Mesh mesh;
-  addQuad(mesh, corner, u, v, repeat);
-  return mesh;
-}
-
 void addWall(GltfBuilder& scene) {
   MaterialSpec bricks = matte("bricks and studs", glm::dvec3(1));
   bricks.baseColorTexture = {scene.addImage("bricks", brickPicture(), false), 0};

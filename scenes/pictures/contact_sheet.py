@@ -64,7 +64,7 @@ def without_bend(document):
 CELLS = [
     *(("mirror_box", True, None, [*SMOOTH, "--bounces", str(n)], f"Mirror box, {n} bounce{'s' if n > 1 else ''}", text)
       for n, text in ((1, "light from the lamp alone"), (2, "one room behind each mirror"), (7, "rooms within rooms"),
-                      (32, "until the glass has swallowed the light"))),
+                      (32, "until the mirrors have swallowed the light"))),
     ("cornell_box", True, None, SMOOTH, "Cornell box", "all effects together"),
     ("cornell_box", False, None, ["--no-shadows", "--bounces", "1"], "and none of them",
      "--no-shadows --bounces 1, one ray per pixel"),

@@ -21,7 +21,7 @@ PURPOSES = {
     "mirror_box_1": "depth: what one bounce shows",
     "mirror_box_2": "two",
     "mirror_box_7": "seven",
-    "mirror_box_32": "and 32: the glass swallows the light before the limit does",
+    "mirror_box_32": "and 32: the mirrors swallow the light before the limit does",
     "spot_cone": "soft and hard edges of cones",
     "emission": "surfaces that glow, and their images",
     "shadow": "shadows of three lamps, one behind a ball that must cast none",
@@ -42,10 +42,16 @@ def command(name, settings):
     """Options that make the picture what it is; the rest is in make.sh."""
     size = f"{settings['width']}×{settings['height']}"
     scene = f"`--{name}`" if name in LARGE else f"`{name.rstrip('_0123456789')}.glb`"
-    return f"{scene}, {size}, {settings['raysPerPixel']} rays, {settings['bounces']} bounces"
+    return f"{scene}, {size}, {counted(settings['raysPerPixel'], 'ray')}, {counted(settings['bounces'], 'bounce')}"
+
+
+def counted(count, noun):
+    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def million(count):
+    if count == 0:
+        return "0"
     return f"{count / 1e6:.1f}" if count >= 1e5 else f"{count / 1e6:.2f}"
 
 

@@ -120,10 +120,7 @@ void addSurroundings(GltfBuilder& scene, TableFinishes& f) {
   f.paint = plain(varnished("white paint", {0.84, 0.83, 0.79}, 0.35));
   f.cane = plain(varnished("cane", {0.45, 0.28, 0.12}, 0.4));
   const auto room = [&](const char* name, double metres, glm::dvec3 glow, const SurfaceFunction& surface) {
-    MaterialSpec spec = withTextures(scene, matte(name, {}), {1024, 1024, metres}, surface);
-    spec.emission = glow;
-    spec.emissionTexture = spec.baseColorTexture;
-    return Finish{scene.addMaterial(spec), true};
+    return glowingFinish(scene, name, metres, glow, surface);
   };
   f.wall = room("wall", 1.5, {0.30, 0.29, 0.28}, plasterSurface({0.50, 0.55, 0.50}));
   f.ceiling = room("ceiling", 3, {0.62, 0.60, 0.56}, plasterSurface({0.75, 0.74, 0.70}));

@@ -4,7 +4,6 @@
 
 #include "breakfast/table.h"
 #include "hash.h"
-#include "png.h"
 #include "shapes/lathe.h"
 #include "shapes/surface.h"
 #include "shapes/sweep.h"
@@ -25,17 +24,11 @@ enum GardenSeries : std::uint32_t {
 constexpr glm::dvec2 kOpeningLow(-64, -2), kOpeningHigh(26, 112);  // x and y
 constexpr double kWallDepth = 14;
 
-Mesh wallPiece(glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v, glm::dvec2 repeat) {
-  Mesh mesh;
-  addQuad(mesh, corner, u, v, repeat);
-  return mesh;
-}
-
 void addWall(const Table& w) {
   constexpr double left = -230, right = 250, low = -75, high = 200;
   const auto part = [&](glm::dvec2 from, glm::dvec2 to) {
     // The texture goes on from part to part.
-    Mesh mesh = wallPiece({from, kWindowWall}, {to.x - from.x, 0, 0}, {0, to.y - from.y, 0}, {1, 1});
+    Mesh mesh = makeQuad({from, kWindowWall}, {to.x - from.x, 0, 0}, {0, to.y - from.y, 0}, {1, 1});
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
       mesh.uv0[i] = glm::vec2(mesh.positions[i].x, -mesh.positions[i].y) / 150.0F;
     w.add("window wall", std::move(mesh), w.finishes.wall);
@@ -64,8 +57,8 @@ void addFrame(const Table& w) {
     for (const double x : {kOpeningLow.x + 3.8, middle + 4.0})
       bar({x, y, z + 3.6}, {x + 37, y + (y < 5 ? 5.0 : 2.4), z + 6.4});
   w.add("panes",
-        wallPiece({kOpeningLow, z + 5}, {kOpeningHigh.x - kOpeningLow.x, 0, 0},
-                  {0, kOpeningHigh.y - kOpeningLow.y, 0}, {1, 1}),
+        makeQuad({kOpeningLow, z + 5}, {kOpeningHigh.x - kOpeningLow.x, 0, 0},
+                 {0, kOpeningHigh.y - kOpeningLow.y, 0}, {1, 1}),
         w.finishes.pane);
 }
 
@@ -77,20 +70,12 @@ double curtainFold(double u, double v) {
 
 /// Cloth that light shines through; where it is seen edge on there is more of it in the way.
 std::vector<std::uint8_t> curtainPicture() {
-  constexpr int kWidth = 512, kHeight = 128;
-  std::vector<std::uint8_t> rgba;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const double u = (x + 0.5) / kWidth, v = 1 - (y + 0.5) / kHeight, h = 0.002;
-      const double slope = 0.05 * (curtainFold(u + h, v) - curtainFold(u - h, v)) / (2 * h);
-      const double light = 0.30 + 0.70 / std::sqrt(1 + slope * slope);
-      const glm::dvec3 color =
-          light * glm::mix(glm::dvec3(0.72, 0.66, 0.58), glm::dvec3(0.80, 0.79, 0.77), v);
-      for (int k = 0; k < 3; ++k) rgba.push_back(srgbCode(color[k]));
-      rgba.push_back(255);
-    }
-  }
-  return encodePng(kWidth, kHeight, rgba);
+  return paintPicture(512, 128, [](glm::dvec2 uv) {
+    const double u = uv.x, v = 1 - uv.y, h = 0.002;
+    const double slope = 0.05 * (curtainFold(u + h, v) - curtainFold(u - h, v)) / (2 * h);
+    const double light = 0.30 + 0.70 / std::sqrt(1 + slope * slope);
+    return light * glm::mix(glm::dvec3(0.72, 0.66, 0.58), glm::dvec3(0.80, 0.79, 0.77), v);
+  });
 }
 
 void addCurtains(const Table& w) {
@@ -117,72 +102,70 @@ void addCurtains(const Table& w) {
         w.finishes.gold);
 }
 
-/// Morning in a garden as a lens that is focused on the table shows it: soft greens, and discs where leaves
-/// let the sky through.
-std::vector<std::uint8_t> gardenPicture() {
-  constexpr int kWidth = 1536, kHeight = 768;
-  std::vector<glm::dvec3> picture;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const glm::dvec2 uv((x + 0.5) / kWidth, (y + 0.5) / kHeight);
-      const double up = 1 - uv.y, trees = noise(uv, {13, 5}, kFoliage),
-                   bushes = noise(uv, {23, 10}, kFoliage + 1), broad = noise(uv, {5, 3}, kFoliage + 2);
-      glm::dvec3 color = glm::mix(glm::dvec3(0.30, 0.42, 0.10), glm::dvec3(0.09, 0.16, 0.05),
-                                  smoothStep(0.25, 0.5, up + 0.08 * (bushes - 0.5)));
-      color =
-          glm::mix(color, glm::dvec3(0.17, 0.28, 0.07) * (0.6 + 1.0 * bushes), smoothStep(0.38, 0.62, up));
-      const double sky = smoothStep(0.58, 0.95, up + 0.35 * (trees - 0.5) + 0.25 * (broad - 0.5));
-      color = glm::mix(color * (0.75 + 0.5 * trees), glm::dvec3(0.78, 0.86, 0.92), sky);
-      picture.push_back(color);
-    }
-  }
-  // Trunks, too near the lens' blur to have bark.
-  for (std::uint32_t i = 0; i < 9; ++i) {
-    const double middle = kWidth * (0.05 + 0.9 * unitValue(kTrunk, i)),
-                 half = 14 + 26 * unitValue(kTrunk + 1, i),
-                 top = kHeight * (0.12 + 0.35 * unitValue(kTrunk + 2, i));
-    for (int y = static_cast<int>(top); y < kHeight * 6 / 10; ++y) {
-      for (int x = std::max(0, static_cast<int>(middle - 2 * half));
-           x < std::min(kWidth, static_cast<int>(middle + 2 * half)); ++x) {
-        const double dark = smoothStep(1.5, 0.4, std::abs(x - middle) / half) *
-                            smoothStep(top, top + 160, y) * smoothStep(kHeight * 0.6, kHeight * 0.5, y);
-        glm::dvec3& pixel = picture[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)];
-        pixel = glm::mix(pixel, glm::dvec3(0.055, 0.06, 0.03), 0.55 * dark);
-      }
-    }
-  }
-  constexpr std::uint32_t kDiscs = 300;
-  for (std::uint32_t i = 0; i < kDiscs; ++i) {
-    const double x = kWidth * unitValue(kDiscAt, i), up = 0.16 + 0.72 * unitValue(kDiscAt + 1, i),
-                 y = kHeight * (1 - up), radius = 6 + 19 * unitValue(kDiscSize, i);
+/// A disc that the lens makes of a point of light: its middle and radius in heights of the picture, its
+/// colour, and how much of it shows.
+struct Disc {
+  glm::dvec2 middle;
+  double radius;
+  glm::dvec3 light;
+  double weight;
+};
+
+std::vector<Disc> gardenDiscs() {
+  std::vector<Disc> discs;
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const double up = 0.16 + 0.72 * unitValue(kDiscAt + 1, i);
     const glm::dvec3 light = up > 0.5     ? glm::dvec3(0.70, 0.78, 0.62)
                              : up > 0.30  ? glm::dvec3(0.50, 0.56, 0.14)
                              : i % 5 == 0 ? glm::dvec3(0.80, 0.42, 0.40)
                                           : glm::dvec3(0.55, 0.62, 0.20);
-    const double weight = 0.04 + 0.16 * unitValue(kDiscSize + 1, i);
-    for (int py = std::max(0, static_cast<int>(y - radius) - 2);
-         py < std::min(kHeight, static_cast<int>(y + radius) + 3); ++py) {
-      for (int px = std::max(0, static_cast<int>(x - radius) - 2);
-           px < std::min(kWidth, static_cast<int>(x + radius) + 3); ++px) {
-        const double far = std::sqrt((px - x) * (px - x) + (py - y) * (py - y)) / radius;
-        const double inside = smoothStep(1.06, 0.92, far) * (0.75 + 0.25 * smoothStep(0.4, 0.95, far));
-        glm::dvec3& pixel = picture[static_cast<std::size_t>(py) * kWidth + static_cast<std::size_t>(px)];
-        pixel = glm::mix(pixel, light, weight * inside);
-      }
+    discs.push_back({{2 * unitValue(kDiscAt, i), 1 - up},
+                     (6 + 19 * unitValue(kDiscSize, i)) / 768,
+                     light,
+                     0.04 + 0.16 * unitValue(kDiscSize + 1, i)});
+  }
+  return discs;
+}
+
+/// Lawn, bushes and trees without an edge, and sky between them.
+glm::dvec3 gardenGreen(glm::dvec2 uv) {
+  const double up = 1 - uv.y, trees = noise(uv, {13, 5}, kFoliage),
+               bushes = noise(uv, {23, 10}, kFoliage + 1), broad = noise(uv, {5, 3}, kFoliage + 2);
+  glm::dvec3 color = glm::mix(glm::dvec3(0.30, 0.42, 0.10), glm::dvec3(0.09, 0.16, 0.05),
+                              smoothStep(0.25, 0.5, up + 0.08 * (bushes - 0.5)));
+  color = glm::mix(color, glm::dvec3(0.17, 0.28, 0.07) * (0.6 + 1.0 * bushes), smoothStep(0.38, 0.62, up));
+  const double sky = smoothStep(0.58, 0.95, up + 0.35 * (trees - 0.5) + 0.25 * (broad - 0.5));
+  color = glm::mix(color * (0.75 + 0.5 * trees), glm::dvec3(0.78, 0.86, 0.92), sky);
+  for (std::uint32_t i = 0; i < 9; ++i) {  // trunks
+    const double off = std::abs(2 * (uv.x - 0.05 - 0.9 * unitValue(kTrunk, i))),
+                 half = 0.018 + 0.034 * unitValue(kTrunk + 1, i),
+                 top = 0.12 + 0.35 * unitValue(kTrunk + 2, i);
+    const double dark =
+        smoothStep(1.5, 0.4, off / half) * smoothStep(top, top + 0.2, uv.y) * smoothStep(0.6, 0.5, uv.y);
+    color = glm::mix(color, glm::dvec3(0.055, 0.06, 0.03), 0.55 * dark);
+  }
+  return color;
+}
+
+/// Morning in a garden as a lens that is focused on the table shows it: soft greens, and discs where leaves
+/// let the sky through.
+std::vector<std::uint8_t> gardenPicture() {
+  const std::vector<Disc> discs = gardenDiscs();
+  return paintPicture(1536, 768, [&](glm::dvec2 uv) {
+    glm::dvec3 color = gardenGreen(uv);
+    for (const Disc& disc : discs) {
+      const double far = glm::distance({2 * uv.x, uv.y}, disc.middle) / disc.radius;
+      const double inside = smoothStep(1.06, 0.92, far) * (0.75 + 0.25 * smoothStep(0.4, 0.95, far));
+      color = glm::mix(color, disc.light, disc.weight * inside);
     }
-  }
-  std::vector<std::uint8_t> rgba;
-  for (const glm::dvec3& pixel : picture) {
-    for (int k = 0; k < 3; ++k) rgba.push_back(srgbCode(pixel[k]));
-    rgba.push_back(255);
-  }
-  return encodePng(kWidth, kHeight, rgba);
+    return color;
+  });
 }
 
 void addGarden(const Table& w) {
   MaterialSpec garden = lamp("garden", glm::dvec3(1.15));
   garden.emissionTexture.image = w.scene.addImage("garden", gardenPicture(), false);
-  w.add("garden", wallPiece({-420, -190, -700}, {800, 0, 0}, {0, 400, 0}, {1, 1}),
+  w.add("garden", makeQuad({-420, -190, -700}, {800, 0, 0}, {0, 400, 0}, {1, 1}),
         {w.scene.addMaterial(garden), true});
 }
 

@@ -133,9 +133,9 @@ void addDrive(const Street& w) {
                          [](glm::dvec2 uv) {
                            const glm::dvec3 a = kRearHub + glm::dvec3(-0.03, 0.055, 0.062),
                                             b = kCrank + glm::dvec3(0.03, 0.115, 0.062);
-                           return glm::mix(a, b, uv.x) + glm::dvec3(0,
-                                                                    0.05 * (uv.y - 0.6) * (0.2 + std::sin(pi * uv.x)),
-                                                                    0.01 * std::sin(pi * uv.y));
+                           return glm::mix(a, b, uv.x) +
+                                  glm::dvec3(0, 0.05 * (uv.y - 0.6) * (0.2 + std::sin(pi * uv.x)),
+                                             0.01 * std::sin(pi * uv.y));
                          }}),
         f.redEnamel);
 }

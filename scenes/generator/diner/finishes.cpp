@@ -89,10 +89,7 @@ void addGround(GltfBuilder& scene, StreetFinishes& f) {
   f.kerb =
       bakedFinish(scene, varnished("kerb", {}, 0.3), {1024, 1024, 2.4}, tileSurface(4, {0.22, 0.215, 0.21}));
   const auto glowing = [&](const char* name, double metres, glm::dvec3 glow, const SurfaceFunction& surface) {
-    MaterialSpec spec = withTextures(scene, matte(name, {}), {1024, 1024, metres}, surface);
-    spec.emission = glow;
-    spec.emissionTexture = spec.baseColorTexture;
-    return Finish{scene.addMaterial(spec), true};
+    return glowingFinish(scene, name, metres, glow, surface);
   };
   // What dusk and lamps give them, were light that is thrown back followed.
   f.brick = glowing("brick", 3, {0.34, 0.30, 0.42}, brickSurface(40, {0.30, 0.12, 0.075}));

@@ -4,7 +4,6 @@
 
 #include "diner/street.h"
 #include "hash.h"
-#include "png.h"
 #include "textures/bake.h"
 #include "textures/noise.h"
 
@@ -15,26 +14,16 @@ enum HouseSeries : std::uint32_t { kCloudBank = 33000, kIsLit = 33010, kBlind = 
 
 /// From orange where the sun went down to a blue that is nearly night, behind rags of cloud.
 std::vector<std::uint8_t> duskPicture() {
-  constexpr int kWidth = 1024, kHeight = 512;
-  std::vector<std::uint8_t> rgba;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const glm::dvec2 uv((x + 0.5) / kWidth, (y + 0.5) / kHeight);
-      const double up = 1 - uv.y,
-                   cloud = smoothStep(0.46, 0.72, fractalNoise({uv.x, uv.y}, {4, 11}, kCloudBank, 6));
-      glm::dvec3 color =
-          glm::mix(glm::dvec3(0.62, 0.28, 0.14), glm::dvec3(0.34, 0.20, 0.30), smoothStep(0.10, 0.30, up));
-      color = glm::mix(color, glm::dvec3(0.075, 0.115, 0.27), smoothStep(0.22, 0.55, up));
-      color = glm::mix(color, glm::dvec3(0.03, 0.05, 0.14), smoothStep(0.5, 1.0, up));
-      color = glm::mix(
-          color,
-          glm::mix(glm::dvec3(0.42, 0.19, 0.17), glm::dvec3(0.05, 0.055, 0.11), smoothStep(0.1, 0.5, up)),
-          0.75 * cloud);
-      for (int k = 0; k < 3; ++k) rgba.push_back(srgbCode(color[k]));
-      rgba.push_back(255);
-    }
-  }
-  return encodePng(kWidth, kHeight, rgba);
+  return paintPicture(1024, 512, [](glm::dvec2 uv) {
+    const double up = 1 - uv.y, cloud = smoothStep(0.46, 0.72, fractalNoise(uv, {4, 11}, kCloudBank, 6));
+    glm::dvec3 color =
+        glm::mix(glm::dvec3(0.62, 0.28, 0.14), glm::dvec3(0.34, 0.20, 0.30), smoothStep(0.10, 0.30, up));
+    color = glm::mix(color, glm::dvec3(0.075, 0.115, 0.27), smoothStep(0.22, 0.55, up));
+    color = glm::mix(color, glm::dvec3(0.03, 0.05, 0.14), smoothStep(0.5, 1.0, up));
+    const glm::dvec3 lit =
+        glm::mix(glm::dvec3(0.42, 0.19, 0.17), glm::dvec3(0.05, 0.055, 0.11), smoothStep(0.1, 0.5, up));
+    return glm::mix(color, lit, 0.75 * cloud);
+  });
 }
 
 /// A sash window: its frame, its sill, and what can be behind it, about its lower edge's middle.
@@ -108,10 +97,10 @@ void addHouses(const Street& street) {
   addQuad(behind, {-260, -12, -190}, {520, 0, 0}, {0, 170, 0});
   street.add("sky", std::move(behind), sky);
   Mesh ground;
-  addQuad(ground, {-260, -0.02, -21}, {520, 0, 0}, {0, 0, -170});
+  addQuad(ground, {-260, -0.02, -21}, {520, 0, 0}, {0, 0, -170}, {173, 57});
   addQuad(ground, {-260, -0.02, 60}, {244, 0, 0}, {0, 0, -81});
   addQuad(ground, {16, -0.02, 60}, {244, 0, 0}, {0, 0, -81});
-  street.add("ground", std::move(ground), street.finishes.rubber);
+  street.add("ground", std::move(ground), street.finishes.stone);
   const WindowMeshes meshes = makeWindows(street);
   struct House {
     double x, z, width;

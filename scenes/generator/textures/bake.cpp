@@ -24,6 +24,18 @@ std::uint8_t srgbCode(double linear) {
   return unitCode(v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055);
 }
 
+std::vector<std::uint8_t> paintPicture(int width, int height,
+                                       const std::function<glm::dvec3(glm::dvec2 uv)>& color) {
+  std::vector<std::uint8_t> rgba;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const glm::dvec3 c = color({(x + 0.5) / width, (y + 0.5) / height});
+      addPixel(rgba, srgbCode(c.r), srgbCode(c.g), srgbCode(c.b));
+    }
+  }
+  return encodePng(width, height, rgba);
+}
+
 BakedSurface bake(const BakeSize& size, const SurfaceFunction& surface) {
   const int w = size.width, h = size.height;
   std::vector<std::uint8_t> color, normal, roughness;

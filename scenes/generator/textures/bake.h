@@ -35,6 +35,10 @@ BakedSurface bake(const BakeSize& size, const SurfaceFunction& surface);
 MaterialSpec withTextures(GltfBuilder& scene, MaterialSpec spec, const BakeSize& size,
                           const SurfaceFunction& surface);
 
+/// The PNG file of a picture whose linear colours are a function of the unit square.
+std::vector<std::uint8_t> paintPicture(int width, int height,
+                                       const std::function<glm::dvec3(glm::dvec2 uv)>& color);
+
 /// A linear value in [0, 1] as an 8-bit sRGB code (IEC 61966-2-1).
 std::uint8_t srgbCode(double linear);
 

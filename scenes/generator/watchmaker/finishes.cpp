@@ -12,10 +12,7 @@ constexpr glm::dvec3 kGold(0.98, 0.74, 0.38), kBrass(0.90, 0.68, 0.32), kSteel(0
 /// Walls and floor glow as the lamps' light would make them, were light that they throw back followed.
 Finish roomFinish(GltfBuilder& scene, const std::string& name, double metres,
                   const SurfaceFunction& surface) {
-  MaterialSpec spec = withTextures(scene, matte(name, {}), {1024, 1024, metres}, surface);
-  spec.emission = {0.16, 0.12, 0.085};
-  spec.emissionTexture = spec.baseColorTexture;
-  return {scene.addMaterial(spec), true};
+  return glowingFinish(scene, name, metres, {0.16, 0.12, 0.085}, surface);
 }
 
 void addMetals(GltfBuilder& scene, Finishes& f) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "hash.h"
-#include "png.h"
 #include "shapes/lathe.h"
 #include "textures/bake.h"
 #include "textures/noise.h"
@@ -27,24 +26,19 @@ enum CitySeries : std::uint32_t {
   kHouseFloors
 };
 
-Mesh quad(glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v, glm::dvec2 repeat = {1, 1}) {
-  Mesh mesh;
-  addQuad(mesh, corner, u, v, repeat);
-  return mesh;
-}
-
 /// Walls far enough away that nothing but mirrors shows them, and the wall with the window behind the bench.
 void addShell(const Workshop& w) {
   const Finishes& f = w.finishes;
   constexpr double x = 1900, back = 2600, high = 1750, low = -900;
-  w.add("left wall", quad({-x, low, back}, {0, 0, kWindowZ - back}, {0, high - low, 0}, {2, 2}), f.plaster);
-  w.add("right wall", quad({x, low, kWindowZ}, {0, 0, back - kWindowZ}, {0, high - low, 0}, {2, 2}),
+  w.add("left wall", makeQuad({-x, low, back}, {0, 0, kWindowZ - back}, {0, high - low, 0}, {2, 2}),
         f.plaster);
-  w.add("back wall", quad({x, low, back}, {-2 * x, 0, 0}, {0, high - low, 0}, {2, 2}), f.plaster);
-  w.add("ceiling", quad({-x, high, kWindowZ}, {2 * x, 0, 0}, {0, 0, back - kWindowZ}, {2, 2}), f.plaster);
-  w.add("floor", quad({-x, low, back}, {2 * x, 0, 0}, {0, 0, kWindowZ - back}, {4, 3}), f.tiles);
+  w.add("right wall", makeQuad({x, low, kWindowZ}, {0, 0, back - kWindowZ}, {0, high - low, 0}, {2, 2}),
+        f.plaster);
+  w.add("back wall", makeQuad({x, low, back}, {-2 * x, 0, 0}, {0, high - low, 0}, {2, 2}), f.plaster);
+  w.add("ceiling", makeQuad({-x, high, kWindowZ}, {2 * x, 0, 0}, {0, 0, back - kWindowZ}, {2, 2}), f.plaster);
+  w.add("floor", makeQuad({-x, low, back}, {2 * x, 0, 0}, {0, 0, kWindowZ - back}, {4, 3}), f.tiles);
   const auto wallPart = [&](glm::dvec2 from, glm::dvec2 to) {
-    w.add("window wall", quad({from, kWindowZ}, {to.x - from.x, 0, 0}, {0, to.y - from.y, 0}, {1, 1}),
+    w.add("window wall", makeQuad({from, kWindowZ}, {to.x - from.x, 0, 0}, {0, to.y - from.y, 0}, {1, 1}),
           f.plaster);
   };
   wallPart({-x, low}, {kWindowLow.x, high});
@@ -64,28 +58,20 @@ void addWindow(const Workshop& w) {
   for (const double x : {kWindowLow.x - 12, -165.0, 170.0, kWindowHigh.x - 8})
     bar({x, kSill, kWindowZ - 26}, {x + 20, kWindowHigh.y, kWindowZ + 4});
   w.add("pane",
-        quad({kWindowLow, kWindowZ - 14}, {kWindowHigh.x - kWindowLow.x, 0, 0},
-             {0, kWindowHigh.y - kWindowLow.y, 0}),
+        makeQuad({kWindowLow, kWindowZ - 14}, {kWindowHigh.x - kWindowLow.x, 0, 0},
+                 {0, kWindowHigh.y - kWindowLow.y, 0}),
         f.pane);
 }
 
 /// Dusk: from a warm band at the horizon (below) to deep blue.
 std::vector<std::uint8_t> skyPicture() {
-  constexpr int kSize = 256;
-  std::vector<std::uint8_t> rgba;
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) {
-      const glm::dvec2 uv((x + 0.5) / kSize, (y + 0.5) / kSize);
-      const double up = 1 - uv.y, cloud = fractalNoise({uv.x, 3 * uv.y}, {5, 9}, kSkyCloud, 5);
-      glm::dvec3 color =
-          glm::mix(glm::dvec3(0.78, 0.40, 0.20), glm::dvec3(0.36, 0.27, 0.42), smoothStep(0.24, 0.46, up));
-      color = glm::mix(color, glm::dvec3(0.07, 0.13, 0.36), smoothStep(0.38, 0.78, up));
-      color *= 0.85 + 0.3 * cloud;
-      for (int k = 0; k < 3; ++k) rgba.push_back(srgbCode(color[k]));
-      rgba.push_back(255);
-    }
-  }
-  return encodePng(kSize, kSize, rgba);
+  return paintPicture(256, 256, [](glm::dvec2 uv) {
+    const double up = 1 - uv.y, cloud = fractalNoise({uv.x, 3 * uv.y}, {5, 9}, kSkyCloud, 5);
+    glm::dvec3 color =
+        glm::mix(glm::dvec3(0.78, 0.40, 0.20), glm::dvec3(0.36, 0.27, 0.42), smoothStep(0.24, 0.46, up));
+    color = glm::mix(color, glm::dvec3(0.07, 0.13, 0.36), smoothStep(0.38, 0.78, up));
+    return color * (0.85 + 0.3 * cloud);
+  });
 }
 
 /// A house of `floors` floors of lit and dark windows.
@@ -119,14 +105,15 @@ void addRoomAround(const Workshop& workshop) {
   // A paper lantern above and behind the camera, for the metals to mirror.
   workshop.add("lantern", makeSphere(260, 96, 48), workshop.finishes.lantern,
                {.position = {-420, 980, 1250}});
-  workshop.add("paper blind", quad({-100, 250, 2500}, {-1500, 0, 0}, {0, 1300, 0}), workshop.finishes.blind);
+  workshop.add("paper blind", makeQuad({-100, 250, 2500}, {-1500, 0, 0}, {0, 1300, 0}),
+               workshop.finishes.blind);
 }
 
 void addCity(const Workshop& workshop) {
   GltfBuilder& scene = workshop.scene;
   MaterialSpec sky = lamp("evening sky", glm::dvec3(1));
   sky.emissionTexture.image = scene.addImage("evening sky", skyPicture(), false);
-  workshop.add("sky", quad({-900e3, -30e3, -800e3}, {1800e3, 0, 0}, {0, 110e3, 0}),
+  workshop.add("sky", makeQuad({-900e3, -30e3, -800e3}, {1800e3, 0, 0}, {0, 110e3, 0}),
                {scene.addMaterial(sky), true});
   std::array<Mesh, 3> facades, windows;
   constexpr std::uint32_t kHouses = 260;
@@ -148,7 +135,7 @@ void addCity(const Workshop& workshop) {
     addGlowing("houses", facades[k], dusk[k]);
     addGlowing("lit windows", windows[k], glow[k]);
   }
-  Mesh street = quad({-900e3, kStreet, -20e3}, {1800e3, 0, 0}, {0, 0, -780e3});
+  Mesh street = makeQuad({-900e3, kStreet, -20e3}, {1800e3, 0, 0}, {0, 0, -780e3});
   addGlowing("street", street, {0.016, 0.018, 0.026});
   const int streetLamp = workshop.addMesh("street lamp", makeSphere(420, 24, 12),
                                           {scene.addMaterial(lamp("street lamp", {3.2, 2.0, 0.8})), false});

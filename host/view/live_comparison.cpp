@@ -10,7 +10,7 @@ namespace whittle::view {
 namespace {
 
 /// What the thread does; reading before comparing.
-enum class Kind : std::uint8_t { Read, Compare };
+enum class Work : std::uint8_t { Read, Compare };
 
 /// Linear light, RGB, of RGBA codes.
 FloatImage lightOfCodes(const std::vector<std::uint8_t>& codes, int width, int height) {
@@ -46,15 +46,15 @@ Lights lightsOf(const Comparable& c, const std::vector<std::uint8_t>& referenceC
 }  // namespace
 
 LiveComparison::LiveComparison(std::function<void()> wake)
-    : wake_(std::move(wake)), worker_(static_cast<std::size_t>(Kind::Compare) + 1) {}
+    : wake_(std::move(wake)), worker_(static_cast<std::size_t>(Work::Compare) + 1) {}
 
 void LiveComparison::open(std::function<Reference()> toRead) {
-  worker_.give([this, toRead = std::move(toRead)] { read(toRead); }, static_cast<std::size_t>(Kind::Read));
+  worker_.give([this, toRead = std::move(toRead)] { read(toRead); }, static_cast<std::size_t>(Work::Read));
 }
 
 void LiveComparison::compare(Comparable pictures) {
   worker_.give([this, pictures = std::move(pictures)] { work(pictures); },
-               static_cast<std::size_t>(Kind::Compare));
+               static_cast<std::size_t>(Work::Compare));
 }
 
 std::optional<LiveComparison::Opened> LiveComparison::takeOpened() {

@@ -125,15 +125,22 @@ TEST(EditedCopy, ALightIsMovedInItsParentsFrame) {
   }
 }
 
-/// Unit vectors rounded to floats: along the axes, between them, and with components that hardly count.
+/// Unit vectors rounded to floats: along the axes, between them, with components that hardly count, and some
+/// that round elsewhere when they are brought to unit length again.
 std::vector<glm::vec3> directions() {
   std::vector<glm::vec3> all;
   for (const glm::dvec3& v : {glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1), glm::dvec3(3, -4, 0),
                               glm::dvec3(1, 2, 3), glm::dvec3(-1e-9, -0.3, -0.9), glm::dvec3(3e-5, -7, 1)})
     all.emplace_back(glm::normalize(v));
-  for (int i = 1; i <= 20; ++i)
+  for (const int i : {1, 2, 3, 4, 5, 6, 7, 8, 51, 60, 89, 280})
     all.emplace_back(glm::normalize(glm::dvec3(std::sin(7.1 * i), std::sin(3.3 * i), std::cos(5.7 * i))));
   return all;
+}
+
+TEST(EditedCopy, SomeDirectionsRoundElsewhere) {
+  std::size_t elsewhere = 0;
+  for (const glm::vec3& v : directions()) elsewhere += glm::vec3(glm::normalize(glm::dvec3(v))) != v;
+  EXPECT_GE(elsewhere, 3U) << "else the tests below would not see that the copy minds it";
 }
 
 /// Light 0 hangs on a mesh, 2 on a node with a rotation, 3 and 4 on ones with matrices.

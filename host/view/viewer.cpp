@@ -281,7 +281,7 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
   else if (isOfBackground(id))
     edited();
   else if (isOfLoading(id))
-    load({}, true);
+    load({}, true), request_ = 0;  // what is shown is of the settings before
   else
     ask();
   return {};

@@ -58,9 +58,10 @@ RayQueues::RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacit
     entryRadiance = planes("entryRadiance", radiancePlanes_);
   if (shadowRays || impulseRays) {
     flags = compute.allocate("flags", std::size_t{capacity} + QUEUE_PADDING);
-    const std::size_t chunks = capacity / compactChunk + 1, kinds = impulseRays ? SUMS : SUM_ENDED;
-    totals = compute.allocate("totals", kinds * chunks * sizeof(std::uint32_t));
-    sums = compute.allocate("sums", kinds * sizeof(std::uint32_t));
+    // Of all kinds, even where nothing can end: the items of scan_chunks are rounded up to a work-group.
+    const std::size_t chunks = capacity / compactChunk + 1;
+    totals = compute.allocate("totals", SUMS * chunks * sizeof(std::uint32_t));
+    sums = compute.allocate("sums", SUMS * sizeof(std::uint32_t));
   }
 }
 

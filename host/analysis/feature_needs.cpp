@@ -73,6 +73,7 @@ std::vector<FeatureNeed> otherNeeds() {
       {F::CUTOFF, {F::IMPULSES}},
       {F::FIXED_RAY_OFFSET, {F::SHADOWS, F::IMPULSES}},
       {F::BACKGROUND_MAP, {F::BACKGROUND}},
+      {F::SKY_LIGHTS, {F::BACKGROUND}},
   };
 }
 

@@ -8,6 +8,7 @@
 #include "reference/lights.h"
 #include "reference/ray_notes.h"
 #include "reference/sampler.h"
+#include "reference/sky.h"
 #include "reference/texture.h"
 #include "scene/light_size.h"
 
@@ -72,12 +73,13 @@ LightSample lightFor(const World& world, const Sample& sample, const Step& step,
                      const Surfel& lit) {
   const Light& light = world.scene.lights[index];
   const LightSample middle = sampleLight(light, lit.position);
-  const bool isSurface = light.kind == LightKind::Surface;
-  if (!isSurface && !hasSize(light, world.settings)) return middle;
+  if (!standsForOthers(light.kind) && !hasSize(light, world.settings)) return middle;
   const std::uint32_t dimension =
       kLightDimension + 8 * (roundOf(step) + kRounds * static_cast<std::uint32_t>(index));
-  if (isSurface) return emitterFor(world, lit, squareOf(world, sample, dimension));
-  return spread(light, middle, world.settings, squareOf(world, sample, dimension));
+  const Vec2 at = squareOf(world, sample, dimension);
+  if (light.kind == LightKind::Surface) return emitterFor(world, lit, at);
+  if (light.kind == LightKind::Sky) return sampleSky(world.scene.background, world.sky, lit, at);
+  return spread(light, middle, world.settings, at);
 }
 
 Vec3 directLight(const World& world, const Sample& sample, const Step& step, const Surfel& surfel,
@@ -88,8 +90,8 @@ Vec3 directLight(const World& world, const Sample& sample, const Step& step, con
     const auto [w_i, distance, biradiance] = lightFor(world, sample, step, i, surfel);
     const double cosine = glm::dot(surfel.n, w_i);
     if (!(cosine > 0 && glm::dot(surfel.facing, w_i) > 0)) continue;
-    const Vec3 unshadowed = surfel.alpha * spreadingBsdf(surfel, w_i, w_o, light.kind == LightKind::Surface) *
-                            biradiance * cosine;
+    const Vec3 unshadowed =
+        surfel.alpha * spreadingBsdf(surfel, w_i, w_o, standsForOthers(light.kind)) * biradiance * cosine;
     if (isDark(unshadowed)) continue;
     if (light.castsShadows && world.settings.shadows) {
       ++sample.rays.shadow;
@@ -263,7 +265,7 @@ Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& st
   notes.meets(world, ray, *hit, surfel, kept);
   Vec3 radiance = surfel.alpha * (surfel.unlit ? surfel.baseColor : surfel.emission);
   if (!surfel.unlit) {
-    const double ambient = world.settings.ambient.value_or(0.0F);
+    const double ambient = ambientOf(world.scene, world.settings);
     if (ambient > 0) radiance += surfel.alpha * ambient * ambientReflectance(surfel, -ray.direction);
     notes.local(radiance);
     radiance += directLight(world, sample, step, surfel, -ray.direction, notes);

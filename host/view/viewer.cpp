@@ -28,7 +28,7 @@ bool isOfBackground(const std::string& id) {
 }
 
 /// Settings that put something into the scene.
-bool isOfLoading(const std::string& id) { return id == "area-lights"; }
+bool isOfLoading(const std::string& id) { return id == "area-lights" || id == "sky-light"; }
 
 }  // namespace
 

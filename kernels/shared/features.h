@@ -63,6 +63,7 @@
 #define BIT_LENS 54                        // thin lens
 #define BIT_GLOSS 55                       // glossy impulses
 #define BIT_SURFACE_LIGHTS 56              // surface lights
+#define BIT_SKY_LIGHTS 60                  // sky lights
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

@@ -4,6 +4,7 @@
 
 #include "scene/emitters.h"
 #include "support/agreement.h"
+#include "support/form_factors.h"
 #include "support/single_rays.h"
 
 namespace whittle::test {
@@ -24,14 +25,6 @@ Scene glowingRectangle(float width, float depth, float height) {
   addQuad(scene, addMaterial(scene, m), {-width / 2, height, -depth / 2}, {width, 0, 0}, {0, 0, depth});
   addSurfaceLight(scene);
   return scene;
-}
-
-/// Of a parallel rectangle above its middle: four times the corner's (Howell, catalogue of view factors,
-/// B-3).
-double rectangleIrradiance(double width, double depth, double height) {
-  const double x = width / 2 / height, y = depth / 2 / height;
-  const double sx = std::sqrt(1 + x * x), sy = std::sqrt(1 + y * y);
-  return 2 * (x / sx * std::atan(y / sx) + y / sy * std::atan(x / sy));
 }
 
 TEST(AreaLights, ARectangleGivesTheClosedForm) {
@@ -91,21 +84,10 @@ TEST(AreaLights, EmittersAreChosenByTheirPower) {
 TEST(AreaLights, ErrorsFallAsTheSamplersPromise) {
   Scene scene = glowingRectangle(1, 1, 1);
   addFloor(scene, lambert(glm::vec3(1)), 0);
-  Camera camera = lookingDown();
-  camera.position = {0, 0.5F, 0};
-  camera.ymag = 1e-6F;
-  scene.cameras = {camera};
+  scene.cameras = {lookingAtOrigin(0.5F)};
   const double expected = rectangleIrradiance(1, 1, 1) / std::numbers::pi;
   const auto errorOf = [&](Sampler sampler, int samples) {
-    Settings settings = withAreaLights(sampler);
-    settings.width = settings.height = 24;
-    settings.bounces = 1;
-    settings.raysPerPixel = samples;
-    const RenderResult result = renderOnDevice(scene, settings);
-    double squares = 0;
-    for (std::size_t i = 0; i < 576; ++i)
-      squares += std::pow(static_cast<double>(colorOf(result, i).x) - expected, 2) / 576;
-    return std::sqrt(squares);
+    return errorOverPixels(scene, withAreaLights(sampler), samples, expected);
   };
   const double random = errorOf(Sampler::Random, 16) / errorOf(Sampler::Random, 256);
   EXPECT_NEAR(random, 4, 0.6) << "sixteen times the samples";

@@ -1,24 +1,10 @@
 // Light from the triangles that glow: one of them is chosen by its power, and a point of it evenly (Shirley, Wang,
 // Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", 1996). Table: host/scene/emitters.h.
+#include "lib/shares.cl"
 #include "lib/surface/light.cl"
 #include "lib/surface/ray_offset.cl"
 
 #if HAS(SURFACE_LIGHTS)
-/// The emitter for u in [0, 1), the first whose share ends beyond it; *u: how far into its share.
-INLINE uint chosenEmitter(__global const DeviceEmitter* emitters, uint count, float* u) {
-  uint low = 0, high = count - 1;
-  while (low < high) {
-    const uint middle = (low + high) / 2;
-    if (*u < emitters[middle].until)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  const float begin = low > 0 ? emitters[low - 1].until : 0.0f;
-  *u = (*u - begin) / (emitters[low].until - begin);
-  return low;
-}
-
 /// The distance ends where no rounding takes a shadow ray through the emitter's plane, which lies the offsets of both
 /// ends over the cosine nearer than its point.
 INLINE Illumination emitterIllumination(const SceneView* scene, const RenderConstants* constants, const Surfel* lit,
@@ -32,7 +18,9 @@ INLINE Illumination emitterIllumination(const SceneView* scene, const RenderCons
   uint triangle[LANES];
   STORE(at.u, u);
   for (uint k = 0; k < LANES; ++k) {
-    __global const DeviceEmitter* own = scene->emitters + chosenEmitter(scene->emitters, count, u + k);
+    const Share share = shareAt(&scene->emitters->until, WORDS_OF(DeviceEmitter), count, u[k]);
+    __global const DeviceEmitter* own = scene->emitters + share.chosen;
+    u[k] = (u[k] - share.begin) / (share.end - share.begin);
     triangle[k] = own->triangle;
     inverseDensity[k] = own->inverseDensity;
   }

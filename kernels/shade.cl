@@ -76,6 +76,7 @@ INLINE Square sampleSquares(const RenderConstants* constants, const SampleNames*
 #define SQUARE_DIMENSIONS 8u
 #define GLOSS_DIMENSION 0x10000u
 #define LIGHT_DIMENSION 0x40000u
+#define CHOICE_DIMENSION 3u  // of the eight: where a second square begins, whose numbers no sampler takes for the first
 #define ROUNDS 8192u         // more than bounces and passages straight on together
 
 #if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS)
@@ -102,7 +103,10 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
   arriving = spread(light, constants, &arriving, square);
 #endif
 #if HAS(SURFACE_LIGHTS)
-  if (light->kind == LIGHT_SURFACE) arriving = emitterIllumination(scene, constants, s, light->emitters, square);
+  if (light->kind == LIGHT_SURFACE) {
+    const Square choice = sampleSquares(constants, names, dimension + CHOICE_DIMENSION);
+    arriving = emitterIllumination(scene, constants, s, light->emitters, choice.u, square);
+  }
 #endif
 #if HAS(SKY_LIGHTS)
   if (light->kind == LIGHT_SKY) arriving = skyIllumination(scene, constants, s, square);

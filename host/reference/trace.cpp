@@ -5,6 +5,7 @@
 #include <array>
 
 #include "reference/camera.h"
+#include "reference/emitters.h"
 #include "reference/lights.h"
 #include "reference/ray_notes.h"
 #include "reference/sampler.h"
@@ -43,31 +44,6 @@ Vec2 squareOf(const World& world, const Sample& sample, std::uint32_t dimension)
                         dimension, s.seed);
 }
 
-/// By a point of a triangle that glows, chosen by its power. The distance ends where no rounding takes a
-/// shadow ray through the triangle's plane.
-LightSample emitterFor(const World& world, const Surfel& lit, Vec2 u) {
-  const Vec3& point = lit.position;
-  if (world.emitters.empty()) return {Vec3(0), 0, Vec3(0)};
-  const auto chosen = std::find_if(world.emitters.begin(), world.emitters.end() - 1,
-                                   [&](const Emitter& e) { return u.x < static_cast<double>(e.until); });
-  const double begin = chosen == world.emitters.begin() ? 0.0 : static_cast<double>((chosen - 1)->until);
-  const double root = std::sqrt((u.x - begin) / (static_cast<double>(chosen->until) - begin));
-  const Vec3 weights(1 - root, root * (1 - u.y), root * u.y);
-  const auto [p0, p1, p2] = world.triangles.corners(chosen->triangle);
-  const Vec3 towards = weights.x * p0 + weights.y * p1 + weights.z * p2 - point;
-  const double distance = glm::length(towards);
-  if (!(distance > 0)) return {Vec3(0), 0, Vec3(0)};
-  const Ray ray{point, towards / distance};
-  const Surfel there =
-      makeSurfel(world.scene, world.settings, world.triangles, ray, {chosen->triangle, distance, weights});
-  const double facing = -glm::dot(there.facing, ray.direction);
-  if (!(facing > 0)) return {ray.direction, distance, Vec3(0)};
-  const double end = distance + 2 * (lit.rayOffset - std::max(lit.rayOffset, there.rayOffset) / facing);
-  return {ray.direction, end,
-          there.alpha * there.emission *
-              (facing * static_cast<double>(chosen->inverseDensity) / square(distance))};
-}
-
 /// The light with that index, by the point of it that is this sample's at this step.
 LightSample lightFor(const World& world, const Sample& sample, const Step& step, std::size_t index,
                      const Surfel& lit) {
@@ -77,7 +53,9 @@ LightSample lightFor(const World& world, const Sample& sample, const Step& step,
   const std::uint32_t dimension =
       kLightDimension + 8 * (roundOf(step) + kRounds * static_cast<std::uint32_t>(index));
   const Vec2 at = squareOf(world, sample, dimension);
-  if (light.kind == LightKind::Surface) return emitterFor(world, lit, at);
+  if (light.kind == LightKind::Surface)
+    return sampleEmitter(world.scene, world.settings, world.triangles, world.emitters, lit,
+                         squareOf(world, sample, dimension + kChoiceDimension).x, at);
   if (light.kind == LightKind::Sky) return sampleSky(world.scene.background, world.sky, lit, at);
   return spread(light, middle, world.settings, at);
 }

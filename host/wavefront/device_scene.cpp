@@ -109,7 +109,8 @@ std::vector<device::DeviceEmitter> emittersToDevice(const std::vector<Emitter>& 
   for (std::uint32_t i = 0; i < order.size(); ++i) leafOf[order[i]] = i;
   std::vector<device::DeviceEmitter> out;
   out.reserve(emitters.size());
-  for (const Emitter& e : emitters) out.push_back({leafOf[e.triangle], e.until, e.inverseDensity});
+  for (const Emitter& e : emitters)
+    out.push_back({leafOf[e.triangle], e.until, e.inverseDensity, e.twoSided ? 1U : 0U});
   return out;
 }
 

@@ -108,7 +108,17 @@ WHITTLE_STRUCT(DeviceEmitter) {
   uint triangle;  // in leaf order
   float until;
   float inverseDensity;  // m²
+  uint twoSided;         // 1: it glows on both sides
 };
+
+// How many emitters are drawn by their power for each light ray, of which one is kept by what it brings. More make less
+// noise, and each takes time; measured: kernels/README.md.
+#define EMITTER_CANDIDATES 4
+// Between these a triangle's points are drawn evenly in solid angle, beyond them evenly over its area. Smaller ones
+// look the same from all their points, but for the rounding of directions; those that fill the hemisphere touch the
+// surface.
+#define LEAST_SOLID_ANGLE 1e-6f
+#define MOST_SOLID_ANGLE 6.22f
 
 // Vectors are four floats apart: a compiler loads the fourth along, and the bits of a small integer there
 // are a subnormal float, whose product stalls a CPU for a hundred cycles (measured: raygen took seven

@@ -2,9 +2,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/shared/layout.h"
 #include "scene/emitters.h"
 #include "support/agreement.h"
 #include "support/form_factors.h"
+#include "support/random_scenes.h"
 #include "support/single_rays.h"
 
 namespace whittle::test {
@@ -95,6 +97,59 @@ TEST(AreaLights, ErrorsFallAsTheSamplersPromise) {
   // samples.
   EXPECT_GT(errorOf(Sampler::Stratified, 16) / errorOf(Sampler::Stratified, 256), 9);
   EXPECT_GT(errorOf(Sampler::Sobol, 16) / errorOf(Sampler::Sobol, 256), 9);
+}
+
+/// The error of a pixel of that many independent samples whose squares have that mean.
+double scatter(double meanOfSquares, double mean, int samples) {
+  return std::sqrt((meanOfSquares - mean * mean) / samples) / std::numbers::pi;
+}
+
+/// Near a large lamp, points chosen evenly over its area bring anything from little to much: cos⁴θ/h² each.
+/// Directions bring their cosine.
+TEST(AreaLights, DirectionsScatterLessThanPoints) {
+  constexpr int kSteps = 1000, kSamples = 16;
+  constexpr double kSide = 4, kHeight = 0.25, kArea = kSide * kSide;
+  double mean = 0, squares = 0;
+  for (int i = 0; i < kSteps * kSteps; ++i) {
+    const double x = ((i % kSteps + 0.5) / kSteps - 0.5) * kSide,
+                 z = ((i / kSteps + 0.5) / kSteps - 0.5) * kSide;
+    const double point = kArea * kHeight * kHeight / std::pow(x * x + z * z + kHeight * kHeight, 2);
+    mean += point / kSteps / kSteps, squares += point * point / kSteps / kSteps;
+  }
+  ASSERT_NEAR(mean / rectangleIrradiance(kSide, kSide, kHeight), 1, 1e-3);
+  Scene scene = glowingRectangle(kSide, kSide, kHeight);
+  addFloor(scene, lambert(glm::vec3(1)), 0);
+  scene.cameras = {lookingAtOrigin(0.2F)};
+  const double error =
+      errorOverPixels(scene, withAreaLights(Sampler::Random), kSamples, mean / std::numbers::pi);
+  EXPECT_LT(error, scatter(squares, mean, kSamples) / 5);
+}
+
+/// Of many small lamps, those are chosen that bring much: of candidates drawn by power, as good as that many
+/// samples.
+TEST(AreaLights, AFewCandidatesAreWorthAsManySamples) {
+  constexpr int kLamps = 300, kSamples = 16;
+  constexpr float kSide = 0.01F;
+  Scene scene;
+  Material m = emitter({1, 1, 1});
+  m.doubleSided = false;
+  const std::uint32_t glow = addMaterial(scene, m);
+  Rng rng(5);
+  double mean = 0, squares = 0;
+  for (int i = 0; i < kLamps; ++i) {
+    const glm::vec3 p(rng.between(-5, 5), rng.between(0.5F, 2), rng.between(-5, 5));
+    addQuad(scene, glow, p - glm::vec3(kSide / 2, 0, kSide / 2), {kSide, 0, 0}, {0, 0, kSide});
+    const double d2 = static_cast<double>(glm::dot(p, p)), y = static_cast<double>(p.y);
+    const double brings = static_cast<double>(kSide * kSide) * y * y / (d2 * d2);
+    mean += brings, squares += kLamps * brings * brings;
+  }
+  addSurfaceLight(scene);
+  addFloor(scene, lambert(glm::vec3(1)), 0);
+  scene.cameras = {lookingAtOrigin(0.2F)};
+  const double error =
+      errorOverPixels(scene, withAreaLights(Sampler::Random), kSamples, mean / std::numbers::pi);
+  // All of 576 errors: their mean scatters by 3 %, and lamps hide one another here and there.
+  EXPECT_LT(error, 1.15 * scatter(squares, mean, kSamples * EMITTER_CANDIDATES));
 }
 
 /// Several emitters, a texture on one, mirrors and glass between, shadows of both; glossy and not.

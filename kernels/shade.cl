@@ -6,7 +6,7 @@
 #include "lib/surface/absorption.cl"
 #include "lib/surface/background.cl"
 #include "lib/surface/bsdf.cl"
-#include "lib/surface/ray_offset.cl"
+#include "lib/surface/shadow_ray.cl"
 #include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
 #include "lib/surface/emitters.cl"
@@ -113,7 +113,7 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
 #endif
 #endif
   const Real cosine = dot3(s->n, arriving.w_i);
-  lit = lit & (cosine > 0.0f) & (dot3(s->n_g, arriving.w_i) > 0.0f) & notDark(arriving.biradiance);
+  lit = lit & (cosine > 0.0f) & isLitSide(s, arriving.w_i) & notDark(arriving.biradiance);
   if (!some(lit)) return (Natural)(0);
   const Real3 f = finiteScattering(constants, s, w_o, arriving.w_i, light->kind);
   const Real3 contribution = scale3(cosine, mul3(scale3(s->alpha, f), arriving.biradiance));
@@ -121,9 +121,10 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
   const Real3 carried = mul3(contribution, attenuation);
 #if HAS(SHADOWS)
   if (light->castsShadows) {
-    storeReal3(shadows, capacity, SHADOW_O, i, offsetOrigin(constants, s, arriving.w_i));
-    storeReal3(shadows, capacity, SHADOW_D, i, arriving.w_i);
-    STORE(shadowLength(constants, s, arriving.distance), shadows + (size_t)SHADOW_LENGTH * capacity + i);
+    const ShadowRay ray = shadowRayAlong(constants, s, arriving.w_i, arriving.distance);
+    storeReal3(shadows, capacity, SHADOW_O, i, ray.o);
+    storeReal3(shadows, capacity, SHADOW_D, i, ray.d);
+    STORE(ray.length, shadows + (size_t)SHADOW_LENGTH * capacity + i);
     storeReal3(shadows, capacity, SHADOW_CONTRIBUTION, i, carried);
     return lit ? (Natural)(ENTRY_SHADOW) : (Natural)(0);
   }

@@ -10,6 +10,7 @@
 
 #include "analysis/feature_needs.h"
 #include "scene/camera.h"
+#include "scene/coarse_normals.h"
 #include "scene/light_size.h"
 #include "scene/material_predicates.h"
 #include "scene/sky.h"
@@ -177,6 +178,10 @@ std::vector<Question> lightQuestions(const Needs& n) {
        ambientOf(n.scene, n.settings) > 0.0F      ? "no material answers to light"
        : n.settings.ambient.value_or(0.0F) > 0.0F ? "light from the sky takes its place"
                                                   : "no ambient light was asked for"},
+      {F::TERMINATOR, n.lit() && n.settings.smoothTerminator && hasCoarseNormals(n.scene),
+       n.settings.smoothTerminator ? "vertex normals are those of the triangles, or fine enough"
+                                   : "it is switched off",
+       !n.settings.smoothTerminator},
       {F::UNLIT, n.anyMaterial([](const Material& m) { return m.unlit; }), "no material is unlit"},
       {F::BACKGROUND, b.r > 0.0F || b.g > 0.0F || b.b > 0.0F, "the background is black"},
       {F::BACKGROUND_MAP, !n.scene.background.map.empty(), "the background is one colour"},

@@ -171,6 +171,8 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
              "what surrounds the scene (--background) lights it, with shadows, from several rays per pixel "
              "on; in the "
              "place of --ambient, and the scene gets no lights of ours then [off]");
+  c.add_flag("--smooth-terminator,!--no-smooth-terminator", s.smoothTerminator,
+             "shadows begin without facets where coarse triangles have smooth normals [on]");
   addReal(c, "--light-radius", s.lightRadius, 0, 1e18, "METRES",
           "of every point and spot light: shadows get soft edges, from several rays per pixel on", "0");
   addReal(c, "--sun-angle", s.sunAngle, 0, 180, "DEGREES",

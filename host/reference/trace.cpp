@@ -32,7 +32,13 @@ struct ShadowRay {
 };
 
 ShadowRay shadowRay(const Surfel& surfel, const Vec3& w_i, double distance) {
-  return {{surfel.position + surfel.rayOffset * surfel.facing, w_i}, distance - 2 * surfel.rayOffset};
+  const ShadowRay flat{{surfel.position + surfel.rayOffset * surfel.facing, w_i},
+                       distance - 2 * surfel.rayOffset};
+  if (!surfel.lift) return flat;
+  const Vec3 origin = flat.ray.origin + *surfel.lift;
+  if (!std::isfinite(distance) || !(flat.length > 0)) return {{origin, w_i}, flat.length};
+  const Vec3 along = flat.length * w_i - *surfel.lift;
+  return {{origin, glm::normalize(along)}, glm::length(along)};
 }
 
 std::uint32_t roundOf(const Step& step) { return static_cast<std::uint32_t>(step.bounce + step.passed); }
@@ -67,7 +73,7 @@ Vec3 directLight(const World& world, const Sample& sample, const Step& step, con
     const Light& light = world.scene.lights[i];
     const auto [w_i, distance, biradiance] = lightFor(world, sample, step, i, surfel);
     const double cosine = glm::dot(surfel.n, w_i);
-    if (!(cosine > 0 && glm::dot(surfel.facing, w_i) > 0)) continue;
+    if (!(cosine > 0 && (surfel.lift || glm::dot(surfel.facing, w_i) > 0))) continue;
     const Vec3 unshadowed =
         surfel.alpha * spreadingBsdf(surfel, w_i, w_o, standsForOthers(light.kind)) * biradiance * cosine;
     if (isDark(unshadowed)) continue;

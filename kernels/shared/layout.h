@@ -148,6 +148,12 @@ WHITTLE_STRUCT(DeviceCamera) {
   uint padding[2];
 };
 
+// With TERMINATOR: a triangle counts as a piece of a curved surface where the cosine between its plane's normal and a
+// corner's is below the first at one corner and above the second at all: 1 degree, of which the facets would show as
+// steps of a fiftieth of the light, to 60 degrees, where normals round an edge instead.
+#define COARSE_COSINE 0.99984770f
+#define EDGE_COSINE 0.5f
+
 // Constants of a render that a kernel needs by value.
 WHITTLE_STRUCT(RenderConstants) {
   float background[3];

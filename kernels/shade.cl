@@ -3,34 +3,15 @@
 // its impulse candidates and their flags. What is written for an entry without its flag means nothing. shade_light: the
 // shadow candidate of a further light, one round for each light, so that memory does not grow with them.
 #include "lib/arrivals.cl"
+#include "lib/surface/absorption.cl"
 #include "lib/surface/background.cl"
 #include "lib/surface/bsdf.cl"
-#include "lib/surface/ray_offset.cl"
+#include "lib/surface/shadow_ray.cl"
 #include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
 #include "lib/surface/emitters.cl"
+#include "lib/surface/sky.cl"
 #include "lib/sampler.cl"
-
-/// exp(-sigma t), 1 where sigma is 0; lane by lane, since exp of a vector may round otherwise.
-INLINE Real absorbed(Real sigma, Real t) {
-  float own[LANES], distance[LANES];
-  STORE(sigma, own);
-  STORE(t, distance);
-  for (uint k = 0; k < LANES; ++k) own[k] = own[k] > 0.0f ? exp(-own[k] * distance[k]) : 1.0f;
-  return LOAD(own);
-}
-
-/// What is left of the radiance from hits at distance t after the volume in front of them; 1 where it crossed none.
-INLINE Real3 absorptionAlong(const Surfel* s, Real t) {
-  const Real3 none = same3((float3)(1.0f));
-#if HAS(ABSORPTION)
-  const Mask inside = ((s->flags & MATERIAL_VOLUME) != 0) & !s->front;
-  if (some(inside))
-    return choose3(inside, real3(absorbed(s->sigma_a.x, t), absorbed(s->sigma_a.y, t), absorbed(s->sigma_a.z, t)),
-                   none);
-#endif
-  return none;
-}
 
 #if HAS(BACKGROUND)
 INLINE Real3 backgroundAlong(const SceneView* scene, const RenderConstants* constants, Real3 d, Mask seen) {
@@ -95,9 +76,10 @@ INLINE Square sampleSquares(const RenderConstants* constants, const SampleNames*
 #define SQUARE_DIMENSIONS 8u
 #define GLOSS_DIMENSION 0x10000u
 #define LIGHT_DIMENSION 0x40000u
-#define ROUNDS 8192u  // more than bounces and passages straight on together
+#define CHOICE_DIMENSION 3u  // of the eight: where a second square begins, whose numbers no sampler takes for the first
+#define ROUNDS 8192u         // more than bounces and passages straight on together
 
-#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS)
+#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS)
 #define LIGHT_NAMES (&names)
 #else
 #define LIGHT_NAMES 0
@@ -114,18 +96,24 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
 #endif
   __global const DeviceLight* light = scene->lights + lightIndex;
   Illumination arriving = illuminationAt(light, s->position);
-#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS)
+#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS)
   const uint dimension = LIGHT_DIMENSION + SQUARE_DIMENSIONS * (bounce + ROUNDS * light->index);
   const Square square = sampleSquares(constants, names, dimension);
 #if HAS(LIGHT_SIZE)
   arriving = spread(light, constants, &arriving, square);
 #endif
 #if HAS(SURFACE_LIGHTS)
-  if (light->kind == LIGHT_SURFACE) arriving = emitterIllumination(scene, constants, s, light->emitters, square);
+  if (light->kind == LIGHT_SURFACE) {
+    const Square choice = sampleSquares(constants, names, dimension + CHOICE_DIMENSION);
+    arriving = emitterIllumination(scene, constants, s, light->emitters, choice.u, square);
+  }
+#endif
+#if HAS(SKY_LIGHTS)
+  if (light->kind == LIGHT_SKY) arriving = skyIllumination(scene, constants, s, square);
 #endif
 #endif
   const Real cosine = dot3(s->n, arriving.w_i);
-  lit = lit & (cosine > 0.0f) & (dot3(s->n_g, arriving.w_i) > 0.0f) & notDark(arriving.biradiance);
+  lit = lit & (cosine > 0.0f) & isLitSide(s, arriving.w_i) & notDark(arriving.biradiance);
   if (!some(lit)) return (Natural)(0);
   const Real3 f = finiteScattering(constants, s, w_o, arriving.w_i, light->kind);
   const Real3 contribution = scale3(cosine, mul3(scale3(s->alpha, f), arriving.biradiance));
@@ -133,9 +121,10 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
   const Real3 carried = mul3(contribution, attenuation);
 #if HAS(SHADOWS)
   if (light->castsShadows) {
-    storeReal3(shadows, capacity, SHADOW_O, i, offsetOrigin(constants, s, arriving.w_i));
-    storeReal3(shadows, capacity, SHADOW_D, i, arriving.w_i);
-    STORE(shadowLength(constants, s, arriving.distance), shadows + (size_t)SHADOW_LENGTH * capacity + i);
+    const ShadowRay ray = shadowRayAlong(constants, s, arriving.w_i, arriving.distance);
+    storeReal3(shadows, capacity, SHADOW_O, i, ray.o);
+    storeReal3(shadows, capacity, SHADOW_D, i, ray.d);
+    STORE(ray.length, shadows + (size_t)SHADOW_LENGTH * capacity + i);
     storeReal3(shadows, capacity, SHADOW_CONTRIBUTION, i, carried);
     return lit ? (Natural)(ENTRY_SHADOW) : (Natural)(0);
   }
@@ -283,7 +272,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #else
   const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
 #endif
-#if HAS(AOVS) || HAS(ONE_IMPULSE) || HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(GLOSS)
+#if HAS(AOVS) || HAS(ONE_IMPULSE) || HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS) || HAS(GLOSS)
   const Batch ownBatch = batch;
   const uint active = count - i < LANES ? count - i : LANES;
   const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays, capacity, first + i, active);
@@ -376,7 +365,7 @@ __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const B
 #endif
   Natural found = (Natural)(0);
   if (some(a.hit)) {
-#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS)
+#if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS)
     const Batch ownBatch = batch;
     const uint active = count - i < LANES ? count - i : LANES;
     const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays, capacity, first + i, active);

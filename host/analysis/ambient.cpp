@@ -49,7 +49,8 @@ float automaticAmbient(const Scene& scene) {
   const Sphere bounds = sphereAbout(scene);
   glm::dvec3 irradiance(0);
   for (const Light& light : scene.lights) {
-    if (light.kind == LightKind::Surface) continue;  // it is not known how near they are
+    if (standsForOthers(light.kind))
+      continue;  // how near surfaces are is not known, the background counts below
     if (light.kind == LightKind::Directional) {
       irradiance += glm::dvec3(light.intensity);
       continue;

@@ -20,6 +20,7 @@ std::map<Feature, std::string> contradictions(const Settings& s) {
   std::map<Feature, std::string> out;
   if (s.lanes == Lanes::One) out[Feature::PACKETS] = "--lanes is 1";
   if (s.search == Search::Array) out[Feature::TREE] = "--search is array";
+  if (!s.smoothTerminator) out[Feature::TERMINATOR] = "--no-smooth-terminator";
   if (!s.shadows) out[Feature::SHADOWS] = "shadows are switched off";
   if (s.backFaces == BackFaces::Show) out[Feature::ONE_SIDED] = "--back-faces is show";
   if (s.impulses == ImpulseMode::All) out[Feature::ONE_IMPULSE] = "--impulses is all";
@@ -73,6 +74,9 @@ std::vector<FeatureNeed> otherNeeds() {
       {F::CUTOFF, {F::IMPULSES}},
       {F::FIXED_RAY_OFFSET, {F::SHADOWS, F::IMPULSES}},
       {F::BACKGROUND_MAP, {F::BACKGROUND}},
+      {F::SKY_LIGHTS, {F::BACKGROUND}},
+      {F::TERMINATOR, {F::LIGHTS}},
+      {F::TERMINATOR, {F::VERTEX_NORMALS}},
   };
 }
 

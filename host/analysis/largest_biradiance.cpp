@@ -118,6 +118,7 @@ std::vector<glm::dvec3> largestBiradiance(const Scene& scene, const Settings& se
       for (auto& sum : sums) sum = glm::dvec3(kInfinity);
       continue;
     }
+    if (light.kind == LightKind::Sky) continue;  // radiance from all sides, which is not for here
     // A light of some size is sampled evenly in solid angle: near a sphere that is up to twice what its
     // middle would send, and nothing inside it.
     const double spread = !hasSize(light, settings)     ? 1.0

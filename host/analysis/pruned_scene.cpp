@@ -17,6 +17,7 @@
 #include "analysis/light_reach.h"
 #include "analysis/material_use.h"
 #include "scene/material_predicates.h"
+#include "scene/sky_light.h"
 
 namespace whittle {
 namespace {
@@ -170,7 +171,8 @@ void keepLights(const Scene& scene, PrunedScene& pruned) {
     lit[i] = pruned.materialOf[i] != kNotUsed && isLit(pruned.materials[pruned.materialOf[i]]);
   const LitBounds bounds = boundsForLights(scene, lit);
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-    const std::string reason = whyDark(scene.lights[i], bounds);
+    const bool isDarkSky = scene.lights[i].kind == LightKind::Sky && isBlack(scene.background);
+    const std::string reason = isDarkSky ? "the background is black" : whyDark(scene.lights[i], bounds);
     if (reason.empty())
       pruned.lights.push_back(i);
     else

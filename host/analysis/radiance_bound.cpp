@@ -26,6 +26,7 @@
 #include "kernels/shared/layout.h"
 #include "scene/material_factors.h"
 #include "scene/material_predicates.h"
+#include "scene/sky_light.h"
 
 namespace whittle {
 namespace {
@@ -75,9 +76,15 @@ bool isUsual(const Material& m, const glm::dvec3& color) {
          std::isfinite(color.x + color.y + color.z);
 }
 
-/// vertexColor: the largest of the scene. biradiance: of all lights on this material.
+/// What reaches a material.
+struct Arriving {
+  glm::dvec3 biradiance;  ///< of all lights with a place or a direction
+  glm::dvec3 allAround;   ///< radiance from all sides
+};
+
+/// vertexColor: the largest of the scene.
 Surface surfaceOf(const Material& m, const Settings& settings, const glm::dvec3& vertexColor,
-                  const glm::dvec3& biradiance) {
+                  const Arriving& arriving) {
   const float mirrorRoughness = settings.mirrorRoughness;
   Surface s;
   s.color = glm::dvec3(m.baseColor) * vertexColor;
@@ -96,11 +103,11 @@ Surface surfaceOf(const Material& m, const Settings& settings, const glm::dvec3&
   s.glossy = settings.glossy;
   s.turnsRays = canReflect(m, reflectingRoughness(settings)) || refracts(m);
   const double least = std::max(roughness.low, s.smooth ? static_cast<double>(mirrorRoughness) : 0.0);
-  const double ambient = settings.ambient.value_or(0.0F);
   const double lobe = largestLobe(std::max(least * least, 1e-3));
   for (int c = 0; c < 3; ++c) {
-    s.matte[c] = times(s.color[c] / std::numbers::pi, biradiance[c]) + ambient * s.color[c];
-    s.highlight[c] = times(lobe, biradiance[c]) + ambient * std::max(1.0, s.color[c]);
+    const double around = arriving.allAround[c];
+    s.matte[c] = times(s.color[c] / std::numbers::pi, arriving.biradiance[c]) + around * s.color[c];
+    s.highlight[c] = times(lobe, arriving.biradiance[c]) + around * std::max(1.0, s.color[c]);
   }
   return s;
 }
@@ -135,6 +142,21 @@ double returned(const Surface& s, int c, double L) {
   return s.blends ? std::max(radiance, L) : radiance;
 }
 
+glm::dvec3 largestBackground(const Background& background) {
+  glm::dvec3 largest(background.map.empty() ? 1.0 : 0.0);
+  for (std::size_t i = 0; i < background.map.size(); ++i) {
+    double& channel = largest[static_cast<int>(i % 3)];
+    channel = std::max(channel, static_cast<double>(background.map[i]));
+  }
+  return largest * glm::dvec3(background.radiance);
+}
+
+/// Of the ambient term, or of what may arrive from the sky, in the mean of its samples.
+glm::dvec3 radianceAllAround(const Scene& scene, const Settings& settings) {
+  if (hasSkyLight(scene)) return largestBackground(scene.background);
+  return glm::dvec3(ambientOf(scene, settings));
+}
+
 /// All materials that some triangle has.
 std::vector<Surface> surfacesOf(const Scene& scene, const Settings& settings) {
   glm::dvec3 vertexColor(1), least(0);
@@ -146,19 +168,12 @@ std::vector<Surface> surfacesOf(const Scene& scene, const Settings& settings) {
   std::vector<bool> used(scene.materials.size(), false);
   for (const Triangle& t : scene.triangles) used[t.material] = true;
   const std::vector<glm::dvec3> biradiance = largestBiradiance(scene, settings);
+  const glm::dvec3 allAround = radianceAllAround(scene, settings);
   std::vector<Surface> surfaces;
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
-    if (used[i]) surfaces.push_back(surfaceOf(scene.materials[i], settings, vertexColor, biradiance[i]));
+    if (used[i])
+      surfaces.push_back(surfaceOf(scene.materials[i], settings, vertexColor, {biradiance[i], allAround}));
   return surfaces;
-}
-
-glm::dvec3 largestBackground(const Background& background) {
-  glm::dvec3 largest(background.map.empty() ? 1.0 : 0.0);
-  for (std::size_t i = 0; i < background.map.size(); ++i) {
-    double& channel = largest[static_cast<int>(i % 3)];
-    channel = std::max(channel, static_cast<double>(background.map[i]));
-  }
-  return largest * glm::dvec3(background.radiance);
 }
 
 /// What may differ between the two sides of `isBound` by rounding, and how far above what one hit returns a

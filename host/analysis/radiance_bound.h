@@ -34,7 +34,7 @@ glm::dvec3 radianceBound(const Scene& scene, const Settings& settings);
 /// would have brought which --cutoff, --bounces or --transparent-bounces ended. endedPerSample: throughput
 /// for each sample, of all kinds. With one bounce reflections are not even counted: then it is all that any
 /// surface may reflect or refract. 0 where nothing ended; infinite where radianceBound is. With
-/// ImpulseMode::One it bounds the expected radiance, about which the choices scatter.
+/// ImpulseMode::One or a sky light it bounds the expected radiance, about which the choices scatter.
 double biasBound(const Scene& scene, const Settings& settings, double endedPerSample);
 
 /// The same for picture after picture of one scene, which is gone through once, when it is first needed.

@@ -10,8 +10,10 @@
 
 #include "analysis/feature_needs.h"
 #include "scene/camera.h"
+#include "scene/coarse_normals.h"
 #include "scene/light_size.h"
 #include "scene/material_predicates.h"
+#include "scene/sky_light.h"
 
 namespace whittle {
 namespace {
@@ -152,7 +154,7 @@ std::vector<Question> lightTypeQuestions(const Needs& n) {
     questions.push_back({featureOf(type.kind),
                          n.anyLight([&](const Light& l) { return l.kind == type.kind; }),
                          fmt::format("no {} light", type.word),
-                         type.kind == LightKind::Surface});  // a second surfel at each hit: long to compile
+                         standsForOthers(type.kind)});  // a second surfel at each hit: long to compile
   return questions;
 }
 
@@ -172,9 +174,14 @@ std::vector<Question> lightQuestions(const Needs& n) {
        "no light has a range"},
       {F::MICROFACET, n.lit() && n.anyMaterial(canShowHighlight), "no rough surface shows a highlight"},
       {F::EMISSION, n.anyMaterial(emits), "no material emits"},
-      {F::AMBIENT, n.settings.ambient.value_or(0.0F) > 0.0F && n.anyMaterial(isLit),
-       n.settings.ambient.value_or(0.0F) > 0.0F ? "no material answers to light"
-                                                : "no ambient light was asked for"},
+      {F::AMBIENT, ambientOf(n.scene, n.settings) > 0.0F && n.anyMaterial(isLit),
+       ambientOf(n.scene, n.settings) > 0.0F      ? "no material answers to light"
+       : n.settings.ambient.value_or(0.0F) > 0.0F ? "light from the sky takes its place"
+                                                  : "no ambient light was asked for"},
+      {F::TERMINATOR, n.lit() && n.settings.smoothTerminator && hasCoarseNormals(n.scene),
+       n.settings.smoothTerminator ? "vertex normals are those of the triangles, or fine enough"
+                                   : "it is switched off",
+       !n.settings.smoothTerminator},
       {F::UNLIT, n.anyMaterial([](const Material& m) { return m.unlit; }), "no material is unlit"},
       {F::BACKGROUND, b.r > 0.0F || b.g > 0.0F || b.b > 0.0F, "the background is black"},
       {F::BACKGROUND_MAP, !n.scene.background.map.empty(), "the background is one colour"},

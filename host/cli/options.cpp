@@ -24,6 +24,7 @@
 #include "scene/emitters.h"
 #include "scene/input_error.h"
 #include "scene/machine_memory.h"
+#include "scene/sky_light.h"
 
 namespace whittle::cli {
 namespace {
@@ -56,7 +57,7 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
   addText(c, "--background", [&o](const std::string& v) { o.background = v; },
           {"R,G,B|FILE",
            "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr "
-           "(R, G and B of the file, or of its only layer); it lights nothing matte, --ambient does",
+           "(R, G and B of the file, or of its only layer); it lights what is matte with --sky-light",
            "as the file says"});
   c.add_flag_callback(
       "--default-lights", [&o] { o.defaultLights = true; },
@@ -194,6 +195,12 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
       "--area-lights,!--no-area-lights", s.areaLights,
       "surfaces that glow light others, from several rays per pixel on; the scene gets no lights of ours "
       "then [off]");
+  c.add_flag("--sky-light,!--no-sky-light", s.skyLight,
+             "what surrounds the scene (--background) lights it, with shadows, from several rays per pixel "
+             "on; in the "
+             "place of --ambient, and the scene gets no lights of ours then [off]");
+  c.add_flag("--smooth-terminator,!--no-smooth-terminator", s.smoothTerminator,
+             "shadows begin without facets where coarse triangles have smooth normals [on]");
   addReal(c, "--light-radius", s.lightRadius, 0, 1e18, "METRES",
           "of every point and spot light: shadows get soft edges, from several rays per pixel on", "0");
   addReal(c, "--sun-angle", s.sunAngle, 0, 180, "DEGREES",
@@ -296,6 +303,30 @@ void settleFocus(const SceneOptions& options, const Scene& scene, Settings& sett
   notices.note(fmt::format("focused on {:.4g} m", *settings.focusDistance));
 }
 
+/// --sky-light.
+void lightByBackground(Scene& scene, const Settings& settings, MemoryBudget& budget, Notices& notices) {
+  budget.hold(sizeof(float) * scene.background.map.size() / 3,
+              "--sky-light: the chances of the background's texels");
+  if (!addSkyLight(scene))
+    notices.warn("--sky-light: what surrounds the scene is black; --background 1 makes it white");
+  else if (settings.ambient.value_or(1.0F) > 0.0F)
+    notices.note("--ambient adds nothing: --sky-light takes its place");
+}
+
+/// A studio's walls send some of its light back, and a sky of ours lights what lies in the shade, unless it
+/// does so by rays.
+void settleAmbient(const SceneOptions& options, const Scene& scene, Settings& settings, Notices& notices) {
+  const bool isUnset = options.ambient && !given(options.ambient);
+  const bool isStudio = isUnset && scene.hasStudioLights, isSky = isUnset && scene.sky;
+  if (hasSkyLight(scene) || !(isStudio || isSky || !settings.ambient)) return;
+  settings.ambient = automaticAmbient(scene);
+  notices.note(fmt::format("--ambient auto{}: {} W/(m² sr)",
+                           isStudio ? ", with the studio's lights"
+                           : isSky  ? ", with the sky"
+                                    : "",
+                           *settings.ambient));
+}
+
 }  // namespace
 
 Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings& settings,
@@ -318,7 +349,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   load.time = options.time;
   if (!options.animation.empty()) load.animation = options.animation;
   load.defaultLights = options.defaultLights;
-  if (settings.areaLights && !load.defaultLights) load.defaultLights = false;
+  if ((settings.areaLights || settings.skyLight) && !load.defaultLights) load.defaultLights = false;
   load.confined = options.confined;
   load.defaultBackground = options.defaultBackground && options.background.empty();
   load.sky = settings.sky;
@@ -335,17 +366,8 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))
     notices.note("something lies beyond the camera's zfar; --clip-far leaves it out");
   applyBackground(scene, options.background, settings, budget, notices);
-  // A studio's walls send some of its light back, and the sky lights what lies in the shade.
-  const bool isUnset = options.ambient && !given(options.ambient);
-  const bool isStudio = isUnset && scene.hasStudioLights, isSky = isUnset && scene.sky;
-  if (isStudio || isSky || !settings.ambient) {
-    settings.ambient = automaticAmbient(scene);
-    notices.note(fmt::format("--ambient auto{}: {} W/(m² sr)",
-                             isStudio ? ", with the studio's lights"
-                             : isSky  ? ", with the sky"
-                                      : "",
-                             *settings.ambient));
-  }
+  if (settings.skyLight) lightByBackground(scene, settings, budget, notices);
+  settleAmbient(options, scene, settings, notices);
   settleFocus(options, scene, settings, notices);
   settleMirrorRoughness(options, settings);
   nowDoing("");

@@ -77,7 +77,7 @@ class Editor {
     bool addsOwn = false;
     for (std::size_t i = 0; i < scene_.after.lights.size(); ++i) {
       const Light &before = scene_.before.lights[i], &after = scene_.after.lights[i];
-      if (!differs(before, after)) continue;
+      if (!differs(before, after) || standsForOthers(after.kind)) continue;  // which glTF cannot say
       ++edits;
       if (after.node < 0)
         addsOwn = true;
@@ -86,7 +86,7 @@ class Editor {
     }
     if (addsOwn)
       for (const Light& light : scene_.after.lights)
-        if (light.node < 0) addLight(light);
+        if (light.node < 0 && !standsForOthers(light.kind)) addLight(light);
     for (std::size_t i = 0; i < scene_.after.materials.size(); ++i) {
       const Material &before = scene_.before.materials[i], &after = scene_.after.materials[i];
       if (!differs(before, after)) continue;

@@ -72,7 +72,7 @@ void readCone(const Json& light, const std::string& label, Light& out, Notices& 
 
 std::optional<LightKind> kindOf(const std::string& type) {
   for (const LightType& t : kLightTypes)
-    if (type == t.word && t.kind != LightKind::Surface) return t.kind;
+    if (type == t.word && !standsForOthers(t.kind)) return t.kind;
   return std::nullopt;
 }
 

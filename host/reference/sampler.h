@@ -25,6 +25,9 @@ inline constexpr std::uint32_t kLensDimension = 8;
 /// Where the eight dimensions of the microfacets' square at round r begin, less 8 r; of light i's, less
 /// 8 (r + kRounds i).
 inline constexpr std::uint32_t kGlossDimension = 0x10000, kLightDimension = 0x40000, kRounds = 8192;
+/// Where among a light's eight the square begins that says which emitter: its dimensions are no sampler's of
+/// the first.
+inline constexpr std::uint32_t kChoiceDimension = 3;
 
 /// Position in [0,1)² of a sample in a square of its own, whose dimensions begin at `dimension`.
 Vec2 squarePosition(Sampler sampler, std::uint32_t pixel, std::uint32_t sample, std::uint32_t count,

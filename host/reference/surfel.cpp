@@ -2,7 +2,9 @@
 #include "reference/surfel.h"
 
 #include <algorithm>
+#include <array>
 
+#include "kernels/shared/layout.h"
 #include "reference/texture.h"
 
 namespace whittle::reference {
@@ -41,6 +43,29 @@ Vec3 interpolatedNormal(const Scene& scene, const Hit& hit, const Vec3& n_g) {
   }
   const Vec3 n = glm::normalize(interpolate(scene, scene.normals, hit, n_g));
   return isFinite(n) ? n : n_g;
+}
+
+/// From a point of a triangle to the surface that bulges over it: the mean of the point's projections on the
+/// planes across the corners' normals, where those pass above it (Hanika 2021). Nothing for a triangle that
+/// is as good as flat, or whose normals round an edge.
+std::optional<Vec3> liftAt(const Scene& scene, const TriangleIndex& triangles, const Hit& hit,
+                           const Vec3& position, const Vec3& n_g, bool front) {
+  if (scene.normals.empty()) return std::nullopt;
+  const Triangle& t = scene.triangles[hit.triangle];
+  const std::array vertices{t.v0, t.v1, t.v2};
+  const auto corners = triangles.corners(hit.triangle);
+  double least = 1;
+  Vec3 lift(0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 normal(scene.normals[vertices[i]]);
+    if (normal == Vec3(0)) return std::nullopt;
+    least = std::min(least, glm::dot(normal, n_g));
+    const Vec3 outwards = front ? normal : -normal;
+    lift += hit.barycentric[static_cast<int>(i)] * std::max(0.0, glm::dot(corners[i] - position, outwards)) *
+            outwards;
+  }
+  if (!(least < COARSE_COSINE && least > EDGE_COSINE)) return std::nullopt;
+  return lift;
 }
 
 /// `n` tilted by the material's normal map; `n` itself where there is none or no tangent to lay it along.
@@ -133,6 +158,8 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
   surfel.smooth = surfel.roughness < static_cast<double>(settings.mirrorRoughness);
   surfel.glossy = settings.glossy && !surfel.smooth && !surfel.unlit;
   surfel.eta = relativeIndex(material, surfel.front);
+  if (settings.smoothTerminator)
+    surfel.lift = liftAt(scene, triangles, hit, surfel.position, n_g, surfel.front);
   if (!surfel.front) {
     surfel.facing = -surfel.facing;
     surfel.n = -surfel.n;

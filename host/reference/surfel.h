@@ -1,6 +1,8 @@
 // The local surface at a hit: position, normals, and the material with its textures looked up.
 #pragma once
 
+#include <optional>
+
 #include "reference/fresnel.h"
 #include "reference/triangle_index.h"
 #include "scene/settings.h"
@@ -26,6 +28,9 @@ struct Surfel {
   double eta;     ///< index beyond over index on the viewer's side
   Vec3 emission;  ///< towards the viewer, W/(m² sr)
   Vec3 sigma_a;   ///< 1/m, of the solid behind the front
+  /// With Settings::smoothTerminator, where the vertex normals mean a curved surface: from `position` to
+  /// that, m.
+  std::optional<Vec3> lift = {};
 };
 
 /// The surface as seen along `ray`, which hits it.

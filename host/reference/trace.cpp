@@ -5,9 +5,11 @@
 #include <array>
 
 #include "reference/camera.h"
+#include "reference/emitters.h"
 #include "reference/lights.h"
 #include "reference/ray_notes.h"
 #include "reference/sampler.h"
+#include "reference/sky.h"
 #include "reference/texture.h"
 #include "scene/light_size.h"
 
@@ -30,7 +32,13 @@ struct ShadowRay {
 };
 
 ShadowRay shadowRay(const Surfel& surfel, const Vec3& w_i, double distance) {
-  return {{surfel.position + surfel.rayOffset * surfel.facing, w_i}, distance - 2 * surfel.rayOffset};
+  const ShadowRay flat{{surfel.position + surfel.rayOffset * surfel.facing, w_i},
+                       distance - 2 * surfel.rayOffset};
+  if (!surfel.lift) return flat;
+  const Vec3 origin = flat.ray.origin + *surfel.lift;
+  if (!std::isfinite(distance) || !(flat.length > 0)) return {{origin, w_i}, flat.length};
+  const Vec3 along = flat.length * w_i - *surfel.lift;
+  return {{origin, glm::normalize(along)}, glm::length(along)};
 }
 
 std::uint32_t roundOf(const Step& step) { return static_cast<std::uint32_t>(step.bounce + step.passed); }
@@ -42,42 +50,20 @@ Vec2 squareOf(const World& world, const Sample& sample, std::uint32_t dimension)
                         dimension, s.seed);
 }
 
-/// By a point of a triangle that glows, chosen by its power. The distance ends where no rounding takes a
-/// shadow ray through the triangle's plane.
-LightSample emitterFor(const World& world, const Surfel& lit, Vec2 u) {
-  const Vec3& point = lit.position;
-  if (world.emitters.empty()) return {Vec3(0), 0, Vec3(0)};
-  const auto chosen = std::find_if(world.emitters.begin(), world.emitters.end() - 1,
-                                   [&](const Emitter& e) { return u.x < static_cast<double>(e.until); });
-  const double begin = chosen == world.emitters.begin() ? 0.0 : static_cast<double>((chosen - 1)->until);
-  const double root = std::sqrt((u.x - begin) / (static_cast<double>(chosen->until) - begin));
-  const Vec3 weights(1 - root, root * (1 - u.y), root * u.y);
-  const auto [p0, p1, p2] = world.triangles.corners(chosen->triangle);
-  const Vec3 towards = weights.x * p0 + weights.y * p1 + weights.z * p2 - point;
-  const double distance = glm::length(towards);
-  if (!(distance > 0)) return {Vec3(0), 0, Vec3(0)};
-  const Ray ray{point, towards / distance};
-  const Surfel there =
-      makeSurfel(world.scene, world.settings, world.triangles, ray, {chosen->triangle, distance, weights});
-  const double facing = -glm::dot(there.facing, ray.direction);
-  if (!(facing > 0)) return {ray.direction, distance, Vec3(0)};
-  const double end = distance + 2 * (lit.rayOffset - std::max(lit.rayOffset, there.rayOffset) / facing);
-  return {ray.direction, end,
-          there.alpha * there.emission *
-              (facing * static_cast<double>(chosen->inverseDensity) / square(distance))};
-}
-
 /// The light with that index, by the point of it that is this sample's at this step.
 LightSample lightFor(const World& world, const Sample& sample, const Step& step, std::size_t index,
                      const Surfel& lit) {
   const Light& light = world.scene.lights[index];
   const LightSample middle = sampleLight(light, lit.position);
-  const bool isSurface = light.kind == LightKind::Surface;
-  if (!isSurface && !hasSize(light, world.settings)) return middle;
+  if (!standsForOthers(light.kind) && !hasSize(light, world.settings)) return middle;
   const std::uint32_t dimension =
       kLightDimension + 8 * (roundOf(step) + kRounds * static_cast<std::uint32_t>(index));
-  if (isSurface) return emitterFor(world, lit, squareOf(world, sample, dimension));
-  return spread(light, middle, world.settings, squareOf(world, sample, dimension));
+  const Vec2 at = squareOf(world, sample, dimension);
+  if (light.kind == LightKind::Surface)
+    return sampleEmitter(world.scene, world.settings, world.triangles, world.emitters, lit,
+                         squareOf(world, sample, dimension + kChoiceDimension).x, at);
+  if (light.kind == LightKind::Sky) return sampleSky(world.scene.background, world.sky, lit, at);
+  return spread(light, middle, world.settings, at);
 }
 
 Vec3 directLight(const World& world, const Sample& sample, const Step& step, const Surfel& surfel,
@@ -87,9 +73,9 @@ Vec3 directLight(const World& world, const Sample& sample, const Step& step, con
     const Light& light = world.scene.lights[i];
     const auto [w_i, distance, biradiance] = lightFor(world, sample, step, i, surfel);
     const double cosine = glm::dot(surfel.n, w_i);
-    if (!(cosine > 0 && glm::dot(surfel.facing, w_i) > 0)) continue;
-    const Vec3 unshadowed = surfel.alpha * spreadingBsdf(surfel, w_i, w_o, light.kind == LightKind::Surface) *
-                            biradiance * cosine;
+    if (!(cosine > 0 && (surfel.lift || glm::dot(surfel.facing, w_i) > 0))) continue;
+    const Vec3 unshadowed =
+        surfel.alpha * spreadingBsdf(surfel, w_i, w_o, standsForOthers(light.kind)) * biradiance * cosine;
     if (isDark(unshadowed)) continue;
     if (light.castsShadows && world.settings.shadows) {
       ++sample.rays.shadow;
@@ -263,7 +249,7 @@ Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& st
   notes.meets(world, ray, *hit, surfel, kept);
   Vec3 radiance = surfel.alpha * (surfel.unlit ? surfel.baseColor : surfel.emission);
   if (!surfel.unlit) {
-    const double ambient = world.settings.ambient.value_or(0.0F);
+    const double ambient = ambientOf(world.scene, world.settings);
     if (ambient > 0) radiance += surfel.alpha * ambient * ambientReflectance(surfel, -ray.direction);
     notes.local(radiance);
     radiance += directLight(world, sample, step, surfel, -ray.direction, notes);

@@ -8,6 +8,7 @@
 #include "reference/reference.h"
 #include "scene/emitters.h"
 #include "scene/ray_tree.h"
+#include "scene/sky_light.h"
 
 namespace whittle::reference {
 
@@ -18,6 +19,7 @@ struct World {
   const TriangleIndex& triangles;
   const Camera& camera;
   std::vector<Emitter> emitters = emittersOf(scene);
+  SkyTable sky = hasSkyLight(scene) ? skyTableOf(scene.background) : SkyTable{};
 };
 
 /// One sample of one pixel, and where its rays are counted.

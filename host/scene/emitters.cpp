@@ -31,7 +31,7 @@ std::vector<Emitter> emittersOf(const Scene& scene) {
     const double each = powerOf(scene.materials[t.material]);
     const double power = each > 0.0 ? each * areaOf(scene, t) : 0.0;
     if (!(power > 0.0)) continue;
-    emitters.push_back({i});
+    emitters.push_back({i, 0.0F, 0.0F, scene.materials[t.material].doubleSided});
     powers.push_back(power);
     all += power;
   }

@@ -13,6 +13,7 @@ struct Emitter {
   std::uint32_t triangle = 0;   ///< index in the scene
   float until = 0.0F;           ///< chosen where the last one's `until` <= u < this; the last has 1
   float inverseDensity = 0.0F;  ///< m²: one over the density of its points, where they are chosen evenly
+  bool twoSided = false;        ///< it glows on both sides
   bool operator==(const Emitter&) const = default;
 };
 

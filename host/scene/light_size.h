@@ -17,7 +17,7 @@ inline double sunVersine(const Settings& settings) {
 
 /// Whether the light has a size, so that its shadows have soft edges.
 inline bool hasSize(const Light& light, const Settings& settings) {
-  if (light.kind == LightKind::Surface) return false;  // each has its own
+  if (standsForOthers(light.kind)) return false;  // each has its own
   return (typeOf(light.kind).isPlaced ? settings.lightRadius : settings.sunAngle) > 0.0F;
 }
 

@@ -134,6 +134,11 @@ inline constexpr std::array kLightTypes{
 
 constexpr const LightType& typeOf(LightKind kind) { return kLightTypes[static_cast<std::size_t>(kind)]; }
 
+/// Not of a file: it stands for something else in the scene that shines, and has that one's size.
+constexpr bool standsForOthers(LightKind kind) {
+  return kind == LightKind::Surface || kind == LightKind::Sky;
+}
+
 /// KHR_lights_punctual. `intensity` is colour · intensity: W/sr for point and spot, W/m² for directional
 /// (or the photometric cd and lux: the picture then is in nits).
 struct Light {

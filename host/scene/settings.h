@@ -68,6 +68,10 @@ struct Settings {
   std::optional<float> ambient = 0.0F;
   int raysPerPixel = 1;      ///< 1 = through the pixel's centre
   bool areaLights = false;   ///< surfaces that glow light others; loading has added the light to the scene
+  bool skyLight = false;     ///< the background lights surfaces; loading has added the light to the scene
+  /// Where a smooth surface is made of coarse triangles, shadow rays start on the curved surface that its
+  /// normals mean, so that shadows begin without facets.
+  bool smoothTerminator = true;
   float lightRadius = 0.0F;  ///< metres, of every point and spot light: a sphere of the same intensity
   float sunAngle = 0.0F;     ///< degrees that every directional light fills; the sun: 0.53
   float aperture = 0.0F;     ///< metres, the diameter of the camera's thin lens; 0: a pinhole
@@ -131,6 +135,8 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("ambient", s.ambient);
   visit("raysPerPixel", s.raysPerPixel);
   visit("areaLights", s.areaLights);
+  visit("skyLight", s.skyLight);
+  visit("smoothTerminator", s.smoothTerminator);
   visit("lightRadius", s.lightRadius);
   visit("sunAngle", s.sunAngle);
   visit("aperture", s.aperture);

@@ -29,7 +29,7 @@ bool isOfBackground(const std::string& id) {
 }
 
 /// Settings that put something into the scene.
-bool isOfLoading(const std::string& id) { return id == "area-lights" || id == "sky"; }
+bool isOfLoading(const std::string& id) { return id == "area-lights" || id == "sky" || id == "sky-light"; }
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/light_size.h"
+#include "scene/sky_light.h"
 
 namespace whittle {
 namespace {
@@ -27,7 +28,7 @@ device::RenderConstants constantsToDevice(const Scene& scene, const Camera& came
           .forward = {camera.forward.x, camera.forward.y, camera.forward.z},
           .zfar = camera.zfar,
           .transparentBounces = static_cast<std::uint32_t>(s.transparentBounces),
-          .ambient = s.ambient.value_or(0.0F),
+          .ambient = ambientOf(scene, s),
           .backgroundAhead = backgroundAhead(scene.background),
           .backgroundClear = s.alpha ? 1U : 0U,
           .lightRadius = s.lightRadius,

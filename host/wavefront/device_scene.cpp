@@ -14,6 +14,7 @@
 #include "kernels/shared/layout.h"
 #include "scene/free_array.h"
 #include "scene/machine_memory.h"
+#include "scene/sky_light.h"
 
 namespace whittle {
 namespace {
@@ -108,7 +109,8 @@ std::vector<device::DeviceEmitter> emittersToDevice(const std::vector<Emitter>& 
   for (std::uint32_t i = 0; i < order.size(); ++i) leafOf[order[i]] = i;
   std::vector<device::DeviceEmitter> out;
   out.reserve(emitters.size());
-  for (const Emitter& e : emitters) out.push_back({leafOf[e.triangle], e.until, e.inverseDensity});
+  for (const Emitter& e : emitters)
+    out.push_back({leafOf[e.triangle], e.until, e.inverseDensity, e.twoSided ? 1U : 0U});
   return out;
 }
 
@@ -160,7 +162,8 @@ Buffer uploadCorners(Compute& compute, const Scene& scene, const PrunedScene& pr
 
 std::string groupOf(const std::string& name) {
   if (name == "nodes" || name == "bvh8Nodes" || name == "leaves") return "tree";
-  if (name == "textures" || name == "texels" || name == "linearFromSrgb" || name == "background")
+  if (name == "textures" || name == "texels" || name == "linearFromSrgb" || name == "background" ||
+      name == "sky")
     return "textures";
   return "triangles";
 }
@@ -235,6 +238,8 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   d.lights = compute.upload("lights", d.tables.lights);
   if (features.has(Feature::BACKGROUND_MAP))
     d.backgroundMap = compute.upload("background", scene.background.map);
+  if (features.has(Feature::BACKGROUND_MAP) && features.has(Feature::SKY_LIGHTS))
+    d.sky = compute.upload("sky", skyTableOf(scene.background).until);
   return d;
 }
 

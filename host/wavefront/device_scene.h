@@ -17,14 +17,14 @@ namespace whittle {
 
 struct DeviceScene {
   Buffer nodes, triangles, corners, indices32, normals, tangents, uv0, uv1, colors, materials, textures,
-      texels, linearFromSrgb, lights, emitters, backgroundMap, bvh8Nodes, leaves;
+      texels, linearFromSrgb, lights, emitters, backgroundMap, sky, bvh8Nodes, leaves;
   std::uint32_t triangleCount = 0;  ///< not counting the degenerate sentinel at the end
   std::uint32_t lightCount = 0;
   DeviceTables tables;  ///< what the buffers of the same names hold, `triangles` and `texels` the rest
 
   /// SCENE_PARAMS of kernels/lib/scene.cl.
   WHITTLE_ARGUMENTS(nodes, triangles, corners, indices32, normals, tangents, uv0, uv1, colors, materials,
-                    textures, texels, linearFromSrgb, lights, emitters, backgroundMap, bvh8Nodes, leaves,
+                    textures, texels, linearFromSrgb, lights, emitters, backgroundMap, sky, bvh8Nodes, leaves,
                     triangleCount)
 
   std::vector<const Buffer*> buffers() const;
@@ -36,7 +36,7 @@ inline constexpr std::uint64_t kSceneBufferFeatures =
     bitOf(Feature::TREE) | bitOf(Feature::PACKETS) | bitOf(Feature::VERTEX_NORMALS) |
     bitOf(Feature::TEXTURES) | bitOf(Feature::VERTEX_COLORS) | bitOf(Feature::NORMAL_TEXTURE) |
     bitOf(Feature::UV0) | bitOf(Feature::UV1) | bitOf(Feature::BACKGROUND_MAP) |
-    bitOf(Feature::SURFACE_LIGHTS);
+    bitOf(Feature::SURFACE_LIGHTS) | bitOf(Feature::SKY_LIGHTS);
 
 /// Uploads of `pruned` what `features` needs. Throws ClError naming the buffer that does not fit. The
 /// tree's nodes are let go where a wider tree takes their place.

@@ -19,6 +19,7 @@ typedef struct {
   __global const DeviceLight* lights;        // [lights]
   __global const DeviceEmitter* emitters;    // [emitters] in the scene's order
   __global const float* background;          // [3 width height] equirectangular
+  __global const float* sky;                 // [height + width height] chances of its texels (host/scene/sky.h)
   __global const float* bvh8Nodes;           // [64 nodes] the eight-wide tree (host/bvh/bvh8.h)
   __global const float* leaves;              // [9 triangles + 8] corners of its leaves
   uint triangleCount;
@@ -30,11 +31,11 @@ typedef struct {
       __global const float *uv0, __global const float *uv1, __global const float *colors,                            \
       __global const DeviceMaterial *materials, __global const DeviceTexture *textures, __global const uint *texels, \
       __global const float *linearFromSrgb, __global const DeviceLight *lights,                                      \
-      __global const DeviceEmitter *emitters, __global const float *backgroundMap, __global const float *bvh8Nodes,  \
-      __global const float *leaves, const uint triangleCount
+      __global const DeviceEmitter *emitters, __global const float *backgroundMap, __global const float *sky,        \
+      __global const float *bvh8Nodes, __global const float *leaves, const uint triangleCount
 
 #define SCENE_VIEW                                                                                          \
   {                                                                                                         \
     nodes, triangles, corners, indices32, normals, tangents, uv0, uv1, colors, materials, textures, texels, \
-        linearFromSrgb, lights, emitters, backgroundMap, bvh8Nodes, leaves, triangleCount                   \
+        linearFromSrgb, lights, emitters, backgroundMap, sky, bvh8Nodes, leaves, triangleCount              \
   }

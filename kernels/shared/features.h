@@ -63,6 +63,8 @@
 #define BIT_LENS 54                        // thin lens
 #define BIT_GLOSS 55                       // glossy impulses
 #define BIT_SURFACE_LIGHTS 56              // surface lights
+#define BIT_SKY_LIGHTS 60                  // sky lights
+#define BIT_TERMINATOR 61                  // smooth terminator
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES

@@ -108,7 +108,17 @@ WHITTLE_STRUCT(DeviceEmitter) {
   uint triangle;  // in leaf order
   float until;
   float inverseDensity;  // m²
+  uint twoSided;         // 1: it glows on both sides
 };
+
+// How many emitters are drawn by their power for each light ray, of which one is kept by what it brings. More make less
+// noise, and each takes time; measured: kernels/README.md.
+#define EMITTER_CANDIDATES 4
+// Between these a triangle's points are drawn evenly in solid angle, beyond them evenly over its area. Smaller ones
+// look the same from all their points, but for the rounding of directions; those that fill the hemisphere touch the
+// surface.
+#define LEAST_SOLID_ANGLE 1e-6f
+#define MOST_SOLID_ANGLE 6.22f
 
 // Vectors are four floats apart: a compiler loads the fourth along, and the bits of a small integer there
 // are a subnormal float, whose product stalls a CPU for a hundred cycles (measured: raygen took seven
@@ -137,6 +147,12 @@ WHITTLE_STRUCT(DeviceCamera) {
   float focusDistance;
   uint padding[2];
 };
+
+// With TERMINATOR: a triangle counts as a piece of a curved surface where the cosine between its plane's normal and a
+// corner's is below the first at one corner and above the second at all: 1 degree, of which the facets would show as
+// steps of a fiftieth of the light, to 60 degrees, where normals round an edge instead.
+#define COARSE_COSINE 0.99984770f
+#define EDGE_COSINE 0.5f
 
 // Constants of a render that a kernel needs by value.
 WHITTLE_STRUCT(RenderConstants) {

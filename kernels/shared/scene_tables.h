@@ -6,12 +6,14 @@
 // X(Kind, NAME, word, unit, isPlaced, isAimed, hasCone): LightKind::Kind on the host, LIGHT_NAME in kernels,
 // the feature NAME_LIGHTS; what glTF and a person call it; the unit of its intensity; which fields of Light
 // it uses: position and range, direction, the two cone angles. A light with a place falls off with the
-// squared distance. Surface: all triangles that glow (--area-lights); no file has it.
-#define WHITTLE_LIGHT_TYPES(X)                                \
-  X(Point, POINT, "point", "W/sr", 1, 0, 0)                   \
-  X(Directional, DIRECTIONAL, "directional", "W/m²", 0, 1, 0) \
-  X(Spot, SPOT, "spot", "W/sr", 1, 1, 1)                      \
-  X(Surface, SURFACE, "surface", "times its emission", 0, 0, 0)
+// squared distance. Surface: all triangles that glow (--area-lights). Sky: the background (--sky-light). No file has
+// these two.
+#define WHITTLE_LIGHT_TYPES(X)                                  \
+  X(Point, POINT, "point", "W/sr", 1, 0, 0)                     \
+  X(Directional, DIRECTIONAL, "directional", "W/m²", 0, 1, 0)   \
+  X(Spot, SPOT, "spot", "W/sr", 1, 1, 1)                        \
+  X(Surface, SURFACE, "surface", "times its emission", 0, 0, 0) \
+  X(Sky, SKY, "sky", "times the background", 0, 0, 0)
 
 // X(slot, FEATURE, encoding, factor, (OTHERS)): the member of Material, and of DeviceMaterial that holds its
 // index; the feature of reading it; how its colours are stored; what is multiplied by it, of a material m

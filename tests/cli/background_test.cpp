@@ -111,6 +111,36 @@ TEST(Background, OptionsThatChangeNothingAreSaid) {
   EXPECT_EQ(map.find("changes nothing"), std::string::npos) << map;
 }
 
+/// --sky-light: the light that it adds, in the place of others, and words where there is none.
+TEST(Background, LightsTheSceneWhereAskedFor) {
+  const Folder folder;
+  const auto info = [&](Args more) {
+    Args args{"info", scene(), "--sky-light", "--json"};
+    args.insert(args.end(), more.begin(), more.end());
+    return runWhittle(args, {folder.path(), {}});
+  };
+  const auto lastLight = [](const Outcome& run) { return Json::parse(run.out)["lights"].back()["kind"]; };
+  const Outcome dark = info({"--background", "0"});
+  EXPECT_EQ(dark.status, 0);
+  EXPECT_NE(dark.err.find("--sky-light: what surrounds the scene is black; --background 1 makes it white"),
+            std::string::npos)
+      << dark.err;
+  EXPECT_NE(lastLight(dark), "sky");
+  const Outcome white = info({"--background", "1"});
+  EXPECT_EQ(white.err.find("--sky-light"), std::string::npos) << white.err;
+  EXPECT_EQ(lastLight(white), "sky");
+  Args args = smallRender({"--background", "1", "--sky-light", "--ambient", "1", "--stats", "s.json"});
+  const Outcome both = runWhittle(args, {folder.path(), {}});
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_NE(both.err.find("--ambient adds nothing: --sky-light takes its place"), std::string::npos)
+      << both.err;
+  const Json stats = readJson(folder / "s.json");
+  EXPECT_EQ(stats["settings"]["skyLight"], true);
+  const auto& used = stats["features"]["used"];
+  EXPECT_NE(std::find(used.begin(), used.end(), "sky lights"), used.end());
+  EXPECT_EQ(std::find(used.begin(), used.end(), "ambient light"), used.end());
+}
+
 TEST(Background, FlawedTexelsAreMendedAndCountedInOneWarning) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
                   kInf = std::numeric_limits<float>::infinity();

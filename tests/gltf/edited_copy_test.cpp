@@ -251,6 +251,24 @@ TEST(EditedCopy, StudioLightsBecomeReal) {
   }
 }
 
+/// Lights that stand for what glows and for the sky are of options, not of files.
+TEST(EditedCopy, LightsThatStandForOthersAreNotWritten) {
+  GltfBuilder b;
+  b.node({{"mesh", b.triangleMesh()}});
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.glb", b.glb());
+  Scene scene = read(file);
+  for (const LightKind kind : {LightKind::Surface, LightKind::Sky}) {
+    scene.lights.emplace_back();
+    scene.lights.back().kind = kind;
+  }
+  const Appearance before = appearanceOf(scene);
+  Appearance after = before;
+  for (Light& light : after.lights) light.intensity = {9, 8, 7};
+  EXPECT_EQ(read(writeEditedCopy({file, {}, scene.origin, before, after}, {})).lights.size(), 3U)
+      << "the studio";
+}
+
 TEST(EditedCopy, NamesAreNeverTakenAndResourcesAreStillFound) {
   GltfBuilder b = litFile();
   const TemporaryFolder folder;

@@ -2,8 +2,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/shared/layout.h"
 #include "scene/emitters.h"
 #include "support/agreement.h"
+#include "support/form_factors.h"
+#include "support/random_scenes.h"
 #include "support/single_rays.h"
 
 namespace whittle::test {
@@ -24,14 +27,6 @@ Scene glowingRectangle(float width, float depth, float height) {
   addQuad(scene, addMaterial(scene, m), {-width / 2, height, -depth / 2}, {width, 0, 0}, {0, 0, depth});
   addSurfaceLight(scene);
   return scene;
-}
-
-/// Of a parallel rectangle above its middle: four times the corner's (Howell, catalogue of view factors,
-/// B-3).
-double rectangleIrradiance(double width, double depth, double height) {
-  const double x = width / 2 / height, y = depth / 2 / height;
-  const double sx = std::sqrt(1 + x * x), sy = std::sqrt(1 + y * y);
-  return 2 * (x / sx * std::atan(y / sx) + y / sy * std::atan(x / sy));
 }
 
 TEST(AreaLights, ARectangleGivesTheClosedForm) {
@@ -91,21 +86,10 @@ TEST(AreaLights, EmittersAreChosenByTheirPower) {
 TEST(AreaLights, ErrorsFallAsTheSamplersPromise) {
   Scene scene = glowingRectangle(1, 1, 1);
   addFloor(scene, lambert(glm::vec3(1)), 0);
-  Camera camera = lookingDown();
-  camera.position = {0, 0.5F, 0};
-  camera.ymag = 1e-6F;
-  scene.cameras = {camera};
+  scene.cameras = {lookingAtOrigin(0.5F)};
   const double expected = rectangleIrradiance(1, 1, 1) / std::numbers::pi;
   const auto errorOf = [&](Sampler sampler, int samples) {
-    Settings settings = withAreaLights(sampler);
-    settings.width = settings.height = 24;
-    settings.bounces = 1;
-    settings.raysPerPixel = samples;
-    const RenderResult result = renderOnDevice(scene, settings);
-    double squares = 0;
-    for (std::size_t i = 0; i < 576; ++i)
-      squares += std::pow(static_cast<double>(colorOf(result, i).x) - expected, 2) / 576;
-    return std::sqrt(squares);
+    return errorOverPixels(scene, withAreaLights(sampler), samples, expected);
   };
   const double random = errorOf(Sampler::Random, 16) / errorOf(Sampler::Random, 256);
   EXPECT_NEAR(random, 4, 0.6) << "sixteen times the samples";
@@ -113,6 +97,59 @@ TEST(AreaLights, ErrorsFallAsTheSamplersPromise) {
   // samples.
   EXPECT_GT(errorOf(Sampler::Stratified, 16) / errorOf(Sampler::Stratified, 256), 9);
   EXPECT_GT(errorOf(Sampler::Sobol, 16) / errorOf(Sampler::Sobol, 256), 9);
+}
+
+/// The error of a pixel of that many independent samples whose squares have that mean.
+double scatter(double meanOfSquares, double mean, int samples) {
+  return std::sqrt((meanOfSquares - mean * mean) / samples) / std::numbers::pi;
+}
+
+/// Near a large lamp, points chosen evenly over its area bring anything from little to much: cos⁴θ/h² each.
+/// Directions bring their cosine.
+TEST(AreaLights, DirectionsScatterLessThanPoints) {
+  constexpr int kSteps = 1000, kSamples = 16;
+  constexpr double kSide = 4, kHeight = 0.25, kArea = kSide * kSide;
+  double mean = 0, squares = 0;
+  for (int i = 0; i < kSteps * kSteps; ++i) {
+    const double x = ((i % kSteps + 0.5) / kSteps - 0.5) * kSide,
+                 z = ((i / kSteps + 0.5) / kSteps - 0.5) * kSide;
+    const double point = kArea * kHeight * kHeight / std::pow(x * x + z * z + kHeight * kHeight, 2);
+    mean += point / kSteps / kSteps, squares += point * point / kSteps / kSteps;
+  }
+  ASSERT_NEAR(mean / rectangleIrradiance(kSide, kSide, kHeight), 1, 1e-3);
+  Scene scene = glowingRectangle(kSide, kSide, kHeight);
+  addFloor(scene, lambert(glm::vec3(1)), 0);
+  scene.cameras = {lookingAtOrigin(0.2F)};
+  const double error =
+      errorOverPixels(scene, withAreaLights(Sampler::Random), kSamples, mean / std::numbers::pi);
+  EXPECT_LT(error, scatter(squares, mean, kSamples) / 5);
+}
+
+/// Of many small lamps, those are chosen that bring much: of candidates drawn by power, as good as that many
+/// samples.
+TEST(AreaLights, AFewCandidatesAreWorthAsManySamples) {
+  constexpr int kLamps = 300, kSamples = 16;
+  constexpr float kSide = 0.01F;
+  Scene scene;
+  Material m = emitter({1, 1, 1});
+  m.doubleSided = false;
+  const std::uint32_t glow = addMaterial(scene, m);
+  Rng rng(5);
+  double mean = 0, squares = 0;
+  for (int i = 0; i < kLamps; ++i) {
+    const glm::vec3 p(rng.between(-5, 5), rng.between(0.5F, 2), rng.between(-5, 5));
+    addQuad(scene, glow, p - glm::vec3(kSide / 2, 0, kSide / 2), {kSide, 0, 0}, {0, 0, kSide});
+    const double d2 = static_cast<double>(glm::dot(p, p)), y = static_cast<double>(p.y);
+    const double brings = static_cast<double>(kSide * kSide) * y * y / (d2 * d2);
+    mean += brings, squares += kLamps * brings * brings;
+  }
+  addSurfaceLight(scene);
+  addFloor(scene, lambert(glm::vec3(1)), 0);
+  scene.cameras = {lookingAtOrigin(0.2F)};
+  const double error =
+      errorOverPixels(scene, withAreaLights(Sampler::Random), kSamples, mean / std::numbers::pi);
+  // All of 576 errors: their mean scatters by 3 %, and lamps hide one another here and there.
+  EXPECT_LT(error, 1.15 * scatter(squares, mean, kSamples * EMITTER_CANDIDATES));
 }
 
 /// Several emitters, a texture on one, mirrors and glass between, shadows of both; glossy and not.

@@ -33,7 +33,8 @@ TEST(LightTypes, EachAgreesWithTheReference) {
     light.outerConeAngle = 0.9F;
     Scene scene = floorAndSheet(lambert({0.5F, 0.25F, 0.75F}));
     addQuad(scene, addMaterial(scene, emitter({3, 2, 1})), {2, 1, -2}, {0, 1, 0},
-            {0, 0, 1});  // of a surface light
+            {0, 0, 1});                     // of a surface light
+    scene.background.radiance = {1, 2, 3};  // of a sky
     scene.lights = {light};
     const Agreement lit = compareWithReference(scene, smallSettings(1));
     expectAgreement(lit, type.word, 4);

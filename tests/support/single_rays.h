@@ -68,12 +68,30 @@ inline RenderResult shootRowDown(Scene scene, double height, double reach, int c
   return renderOnDevice(scene, settings);
 }
 
+/// From that height, whatever the sample's place in the pixel and the pixel's in the picture.
+inline Camera lookingAtOrigin(float height = 1) {
+  Camera camera = lookingDown();
+  camera.position = {0, height, 0};
+  camera.ymag = 1e-6F;
+  return camera;
+}
+
+/// The root of the mean squared error of the first channel over 24×24 pixels that should all be `expected`.
+inline double errorOverPixels(const Scene& scene, Settings settings, int samples, double expected) {
+  settings.width = settings.height = 24;
+  settings.bounces = 1;
+  settings.raysPerPixel = samples;
+  const RenderResult result = renderOnDevice(scene, settings);
+  double squares = 0;
+  for (std::size_t i = 0; i < 576; ++i)
+    squares += std::pow(static_cast<double>(colorOf(result, i).x) - expected, 2) / 576;
+  return std::sqrt(squares);
+}
+
 /// W/m² at the origin on a floor that looks up: Lambert's part of `samples` rays into it from above.
 inline double irradianceAtOrigin(Scene scene, Settings settings, int samples) {
   addFloor(scene, lambert(glm::vec3(1)), 0);
-  Camera camera = lookingDown();
-  camera.ymag = 1e-6F;  // one place, whatever the sample's place in the pixel
-  scene.cameras = {camera};
+  scene.cameras = {lookingAtOrigin()};
   settings.width = settings.height = 1;
   settings.bounces = 1;
   settings.raysPerPixel = samples;

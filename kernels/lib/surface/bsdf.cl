@@ -54,7 +54,7 @@ INLINE Real microfacetAlpha(const Surfel* s) {
 }
 
 /// f(w_i, w_o), 1/sr, without impulses; both directions on the side of n. light: LIGHT_…, since what glossy surfaces
-/// reflect of surfaces that glow is in their impulses.
+/// reflect of surfaces that glow and of the sky is in their impulses.
 INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i, uint light) {
   const Real cosO = dot3(s->n, w_o);
   const Real dielectric = 1.0f - s->metallic;
@@ -74,8 +74,8 @@ INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s,
     const Real visibility = 0.5f /
                             (cosI * sqrt(a2 + (1.0f - a2) * cosO * cosO) + cosO * sqrt(a2 + (1.0f - a2) * cosI * cosI));
     Real lobe = distribution * visibility;
-#if HAS(GLOSS) && HAS(SURFACE_LIGHTS)
-    if (light == LIGHT_SURFACE) lobe = isGlossy(constants, s) ? (Real)(0.0f) : lobe;
+#if HAS(GLOSS) && (HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS))
+    if (light == LIGHT_SURFACE || light == LIGHT_SKY) lobe = isGlossy(constants, s) ? (Real)(0.0f) : lobe;
 #endif
     const Real3 fresnel = schlick(s->specularF0, real3(s->specularF90, s->specularF90, s->specularF90), cosD);
     const Real largest = largestOfThree(fresnel.x, fresnel.y, fresnel.z);

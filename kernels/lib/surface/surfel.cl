@@ -19,6 +19,10 @@ typedef struct {
   Mask front;
   Natural flags;  // MATERIAL_…
   Real3 sigma_a;
+#if HAS(TERMINATOR)
+  Mask curved;  // the normals mean another surface than the triangle's plane
+  Real3 lift;   // from the position to that surface, m
+#endif
 } Surfel;
 
 INLINE Real3 blend(const TrianglePoint* at, Real3 a, Real3 b, Real3 c) {
@@ -62,14 +66,48 @@ INLINE Barycentrics refinedBarycentrics(Real3 p0, Real3 p1, Real3 p2, Real3 o, R
 }
 
 #if HAS(VERTEX_NORMALS)
+/// Normals of a triangle's corners.
+typedef struct {
+  Real3 a, b, c;
+  Mask missing;  // some corner has none
+} CornerNormals;
+
+INLINE CornerNormals cornerNormals(const SceneView* scene, const TrianglePoint* at) {
+  CornerNormals n;
+  n.a = gather3(scene->normals, at->corner[0] * 3u);
+  n.b = gather3(scene->normals, at->corner[1] * 3u);
+  n.c = gather3(scene->normals, at->corner[2] * 3u);
+  n.missing = (dot3(n.a, n.a) == 0.0f) | (dot3(n.b, n.b) == 0.0f) | (dot3(n.c, n.c) == 0.0f);
+  return n;
+}
+
 /// Interpolated vertex normal, or n_g where a corner has none or the sum is useless.
-INLINE Real3 vertexNormalAt(const SceneView* scene, const TrianglePoint* at, Real3 n_g) {
-  if (!scene->normals) return n_g;
-  const Real3 a = gather3(scene->normals, at->corner[0] * 3u), b = gather3(scene->normals, at->corner[1] * 3u),
-              c = gather3(scene->normals, at->corner[2] * 3u);
-  const Mask missing = (dot3(a, a) == 0.0f) | (dot3(b, b) == 0.0f) | (dot3(c, c) == 0.0f);
-  const Real3 n = normalize3(blend(at, a, b, c));
-  return choose3(missing, n_g, choose3(isFinite3(n), n, n_g));
+INLINE Real3 vertexNormalAt(const TrianglePoint* at, const CornerNormals* corners, Real3 n_g) {
+  const Real3 n = normalize3(blend(at, corners->a, corners->b, corners->c));
+  return choose3(corners->missing, n_g, choose3(isFinite3(n), n, n_g));
+}
+#endif
+
+#if HAS(TERMINATOR) && HAS(VERTEX_NORMALS)
+/// From p towards the plane through a corner across its normal, where that lies before p.
+INLINE Real3 liftTo(Real3 corner, Real3 n, Real3 p) {
+  const Real height = dot3(sub3(corner, p), n);
+  return scale3(height > 0.0f ? height : (Real)(0.0f), n);
+}
+
+/// The curved surface that the corners' normals mean bulges over a flat triangle, which would throw a shadow on it:
+/// from there shadow rays start (Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021). Only where a
+/// normal is off the plane's by as much as shows, and none by so much that it means an edge
+/// (host/scene/coarse_normals.h). n_g: not turned to the viewer yet.
+INLINE void liftSurfel(const TrianglePoint* at, const CornerNormals* corners, Real3 n_g, Surfel* s) {
+  const Real a = dot3(corners->a, n_g), b = dot3(corners->b, n_g), c = dot3(corners->c, n_g);
+  const Real ab = a < b ? a : b, least = ab < c ? ab : c;
+  s->curved = !corners->missing & (least < COARSE_COSINE) & (least > EDGE_COSINE);
+  const Real side = s->front ? (Real)(1.0f) : (Real)(-1.0f);
+  const Real3 lift = blend(at, liftTo(at->p0, scale3(side, corners->a), s->position),
+                           liftTo(at->p1, scale3(side, corners->b), s->position),
+                           liftTo(at->p2, scale3(side, corners->c), s->position));
+  s->lift = choose3(s->curved, lift, same3((float3)(0.0f)));
 }
 #endif
 
@@ -160,8 +198,18 @@ INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, R
   const Real3 n_g = normalize3(cross3(sub3(p1, p0), sub3(p2, p0)));
   s.front = dot3(n_g, d) < 0.0f;
   Real3 n = n_g;
+#if HAS(TERMINATOR)
+  s.curved = (Mask)(0);
+  s.lift = same3((float3)(0.0f));
+#endif
 #if HAS(VERTEX_NORMALS)
-  n = vertexNormalAt(scene, &at, n_g);
+  if (scene->normals) {
+    const CornerNormals corners = cornerNormals(scene, &at);
+    n = vertexNormalAt(&at, &corners, n_g);
+#if HAS(TERMINATOR)
+    liftSurfel(&at, &corners, n_g, &s);
+#endif
+  }
 #endif
 #if HAS(TEXTURES) && HAS(NORMAL_TEXTURE)
   n = mappedNormal(scene, &at, n);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/feature.h"
+#include "scene/camera.h"
 #include "scene/input_error.h"
 #include "view/region_picture.h"
 
@@ -17,9 +18,6 @@ constexpr int kCoarse = 4;
 double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-/// What moves with the camera is compiled in from the start, so that no move of it compiles anything.
-constexpr std::uint64_t kOfCamera = bitOf(Feature::NEAR_PLANE) | bitOf(Feature::ORTHOGRAPHIC);
 
 }  // namespace
 
@@ -64,8 +62,17 @@ void LiveRender::run(std::string doing, std::function<void()> work) {
   changed_.notify_all();
 }
 
+/// What moves with the camera is compiled in, so that moves of it compile nothing: a projection costs a ray
+/// nothing. A near plane that cuts does, a tenth and more, so it waits for the first camera that has
+/// something before it.
+std::uint64_t LiveRender::featuresOfCamera(const Request& r) {
+  const double aspect = static_cast<double>(r.settings.width) / r.settings.height;
+  keepsNearPlane_ = keepsNearPlane_ || nearPlaneCuts(*r.scene, r.camera, aspect);
+  return bitOf(Feature::ORTHOGRAPHIC) | (keepsNearPlane_ ? bitOf(Feature::NEAR_PLANE) : 0);
+}
+
 void LiveRender::take(const Request& request) {
-  if (onDevice_ != request.scene) session_.sceneChanged();
+  if (onDevice_ != request.scene) session_.sceneChanged(), keepsNearPlane_ = false;
   onDevice_ = request.scene;
   setAppearance(*request.appearance, *request.scene);
 }
@@ -78,7 +85,7 @@ void LiveRender::explain(Request request, int x, int y, std::function<void(std::
     hooks.compiler = compiler_;
     hooks.camera = &request.camera;
     Settings settings = request.settings;
-    settings.keepFeatures |= kOfCamera;
+    settings.keepFeatures |= featuresOfCamera(request);
     done(session_.explain(*request.scene, settings, x, y, hooks, 1));
   };
   {
@@ -168,7 +175,7 @@ void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
   if (std::exchange(album_, request.album) != request.album) whole_.reset();
   const Scene& scene = *request.scene;
   Settings settings = request.settings;
-  settings.keepFeatures |= kOfCamera;
+  settings.keepFeatures |= featuresOfCamera(request);
   RenderWork work;
   if (request.coarseFirst && settings.width >= 2 * kCoarse && settings.height >= 2 * kCoarse) {
     Settings coarse = settings;

@@ -87,6 +87,7 @@ class LiveRender {
   bool isWanted(std::uint64_t number) const;
   void fail(const std::string& text);
   void take(const Request& request);
+  std::uint64_t featuresOfCamera(const Request& request);
 
   std::function<void()> wake_;
   std::filesystem::path compiler_;
@@ -96,6 +97,7 @@ class LiveRender {
   Settings rendering_;       ///< of the request under way
   std::uint64_t album_ = 0;  ///< the same
   std::shared_ptr<const Scene> onDevice_;
+  bool keepsNearPlane_ = false;                ///< some camera of that scene needed it
   std::shared_ptr<const RenderResult> whole_;  ///< what was shown last for that album; null: nothing
 
   mutable std::mutex mutex_;

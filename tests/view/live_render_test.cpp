@@ -7,6 +7,7 @@
 #include <chrono>
 #include <thread>
 
+#include "analysis/feature.h"
 #include "cl/error.h"
 #include "support/pictures.h"
 
@@ -93,6 +94,36 @@ TEST_P(LostDevice, IsOpenedAgainForTheNextRequest) {
 INSTANTIATE_TEST_SUITE_P(Times, LostDevice,
                          testing::Values(FailingDevice::When::BeforeTheFirstLaunch,
                                          FailingDevice::When::BetweenTwoPasses));
+
+/// Its search begins every eye ray anew, so a window without one would be slower than `render`.
+TEST(LiveRender, ANearPlaneIsCompiledForTheFirstCameraThatCutsSomething) {
+  const auto scene = std::make_shared<Scene>(ownScene("cornell_box"));
+  FailingDevice device;
+  Request request{scene, std::make_shared<const Appearance>(appearanceOf(*scene)), scene->cameras[0],
+                  onTestDevice(smallSettings(2)), false};
+  const auto rendered = [&](const char* what) {
+    device.wait(device.live().ask(request));
+    EXPECT_EQ(device.live().progress().error, "") << what;
+    auto shown = device.live().shown();
+    RenderHooks hooks = testHooks();
+    hooks.camera = &request.camera;
+    Settings all = request.settings;
+    all.keepFeatures = bitOf(Feature::NEAR_PLANE);
+    EXPECT_EQ(differingPixels(shown.result->radiance, render(*scene, all, hooks).radiance), 0U) << what;
+    return shown.result->stats;
+  };
+  EXPECT_FALSE(uses(rendered("nothing before it"), "near plane"));
+  const Camera before = request.camera;
+  request.camera.znear = glm::length(before.position);  // the box is about the origin
+  const auto hasForced = [](const Stats& stats) {
+    return std::any_of(stats.featuresForced.begin(), stats.featuresForced.end(),
+                       [](const std::string& text) { return contains(text, "near plane"); });
+  };
+  EXPECT_TRUE(hasForced(rendered("half of it before it")));
+  request.camera = before;
+  EXPECT_TRUE(hasForced(rendered("and back"))) << "to and fro compiles nothing";
+  EXPECT_EQ(device.live().progress().work.programs, 0);
+}
 
 }  // namespace
 }  // namespace whittle::test

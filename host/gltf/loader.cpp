@@ -163,6 +163,7 @@ Scene loadFile(const std::filesystem::path& path, const LoadOptions& options, No
   document.confined = options.confined;
   MemoryBudget own(options.memory ? MemoryLimit{} : memoryLimitOfMachine());
   document.budget = options.memory ? options.memory : &own;
+  document.textureLevels = options.laterTextureLevels;
   try {
     gltf::openDocument(document, path, notices);
     gltf::load(document, options, scene, notices);

@@ -45,7 +45,7 @@ INLINE Illumination emitterIllumination(const SceneView* scene, const RenderCons
   const Mask reached = d2 > 0.0f;
   result.distance = sqrt(d2);
   result.w_i = choose3(reached, normalize3(toLight), result.w_i);
-  const Surfel s = surfelAt(scene, LOAD(triangle), p, result.w_i, result.distance, b1, b2);
+  const Surfel s = surfelAt(scene, LOAD(triangle), p, result.w_i, result.distance, b1, b2, noFootprint());
   const Real facing = -dot3(s.n_g, result.w_i);
   const Real weight = facing * LOAD(inverseDensity) / d2;
   const Real own = rayOffsetAt(constants, lit), others = rayOffsetAt(constants, &s);

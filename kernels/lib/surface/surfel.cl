@@ -1,5 +1,6 @@
 // The surfel of a hit: what shading needs to know of the surface, evaluated from vertices, material and textures.
 // Conventions: host/reference/README.md.
+#include "lib/surface/footprint.cl"
 #include "lib/surface/material.cl"
 
 typedef struct {
@@ -19,6 +20,9 @@ typedef struct {
   Mask front;
   Natural flags;  // MATERIAL_…
   Real3 sigma_a;
+#ifdef TEXTURE_FOOTPRINTS
+  Real bend;  // half the divergence of the vertex normals, seen from the viewer's side, 1/m
+#endif
 } Surfel;
 
 INLINE Real3 blend(const TrianglePoint* at, Real3 a, Real3 b, Real3 c) {
@@ -62,14 +66,56 @@ INLINE Barycentrics refinedBarycentrics(Real3 p0, Real3 p1, Real3 p2, Real3 o, R
 }
 
 #if HAS(VERTEX_NORMALS)
+/// Of the corners, which are three; returns where one of them has none.
+INLINE Mask vertexNormals(const SceneView* scene, const TrianglePoint* at, Real3* n) {
+  for (uint k = 0; k < 3; ++k) n[k] = gather3(scene->normals, at->corner[k] * 3u);
+  return (dot3(n[0], n[0]) == 0.0f) | (dot3(n[1], n[1]) == 0.0f) | (dot3(n[2], n[2]) == 0.0f);
+}
+
 /// Interpolated vertex normal, or n_g where a corner has none or the sum is useless.
 INLINE Real3 vertexNormalAt(const SceneView* scene, const TrianglePoint* at, Real3 n_g) {
   if (!scene->normals) return n_g;
-  const Real3 a = gather3(scene->normals, at->corner[0] * 3u), b = gather3(scene->normals, at->corner[1] * 3u),
-              c = gather3(scene->normals, at->corner[2] * 3u);
-  const Mask missing = (dot3(a, a) == 0.0f) | (dot3(b, b) == 0.0f) | (dot3(c, c) == 0.0f);
-  const Real3 n = normalize3(blend(at, a, b, c));
+  Real3 corners[3];
+  const Mask missing = vertexNormals(scene, at, corners);
+  const Real3 n = normalize3(blend(at, corners[0], corners[1], corners[2]));
   return choose3(missing, n_g, choose3(isFinite3(n), n, n_g));
+}
+#endif
+
+#ifdef TEXTURE_FOOTPRINTS
+/// The footprint in texture coordinates: a ray moved sideways by a vector meets the triangle's plane where b1 and b2
+/// are other by its products with two vectors across the ray.
+INLINE void addFootprint(const SceneView* scene, const TrianglePoint* at, Real3 d, const Footprint* footprint, Uv* uv) {
+  const Real3 e1 = sub3(at->p1, at->p0), e2 = sub3(at->p2, at->p0);
+  const Real3 across1 = cross3(e2, d), across2 = cross3(d, e1);
+  const Real scale = footprint->width / dot3(e1, across1);
+  Real3 axis[2];
+  Real b1[2], b2[2];
+  basisAbout(d, axis, axis + 1);
+  for (uint n = 0; n < 2; ++n) b1[n] = scale * dot3(axis[n], across1), b2[n] = scale * dot3(axis[n], across2);
+#if HAS(UV0)
+  if (scene->uv0) acrossUvSet(scene->uv0, at->corner, b1, b2, 0, uv);
+#endif
+#if HAS(UV1)
+  if (scene->uv1) acrossUvSet(scene->uv1, at->corner, b1, b2, 1, uv);
+#endif
+  uv->probes = footprint->probes;
+}
+
+/// Half the divergence over the triangle of the interpolated vertex normals, 1/m; 0 where a corner has none.
+INLINE Real bendOf(const SceneView* scene, const TrianglePoint* at, Real3 n_g) {
+#if HAS(VERTEX_NORMALS) && HAS(IMPULSES)
+  if (!scene->normals) return (Real)(0.0f);
+  Real3 n[3];
+  const Mask missing = vertexNormals(scene, at, n);
+  const Real3 e1 = sub3(at->p1, at->p0), e2 = sub3(at->p2, at->p0);
+  const Real3 across1 = cross3(e2, n_g), across2 = cross3(n_g, e1);
+  const Real turn = dot3(sub3(n[1], n[0]), across1) + dot3(sub3(n[2], n[0]), across2);
+  const Real bend = 0.5f * turn / dot3(e1, across1);
+  return !missing & isfinite(bend) ? bend : (Real)(0.0f);
+#else
+  return (Real)(0.0f);
+#endif
 }
 #endif
 
@@ -142,7 +188,8 @@ INLINE void materialAt(const SceneView* scene, const TrianglePoint* at, Surfel* 
 }
 
 /// The surfel at the hit (triangle, t, b1, b2) of the ray o + t d.
-INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, Real3 d, Real t, Real b1, Real b2) {
+INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, Real3 d, Real t, Real b1, Real b2,
+                       Footprint footprint) {
   Surfel s;
   const Barycentrics found = barycentrics(b1, b2);
   TrianglePoint at = trianglePoint(scene, triangleIndex, &found);
@@ -151,6 +198,9 @@ INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, R
   // For texture coordinates alone: what no texture shows keeps its bits whether this is compiled or not.
   const Barycentrics refined = refinedBarycentrics(p0, p1, p2, o, d, t, found);
   at.uv = uvAt(scene, at.corner, &refined);
+#ifdef TEXTURE_FOOTPRINTS
+  addFootprint(scene, &at, d, &footprint, &at.uv);
+#endif
 #else
   at.uv = uvAt(scene, at.corner, &found);
 #endif
@@ -167,6 +217,10 @@ INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, R
   n = mappedNormal(scene, &at, n);
 #endif
   s.n_g = choose3(s.front, n_g, minus3(n_g));
+#ifdef TEXTURE_FOOTPRINTS
+  const Real bend = bendOf(scene, &at, n_g);
+  s.bend = s.front ? bend : -bend;
+#endif
   n = choose3(s.front, n, minus3(n));
   s.n = choose3(dot3(n, d) < 0.0f, n, s.n_g);
   materialAt(scene, &at, &s);

@@ -12,7 +12,7 @@
 INLINE void addEnded(__global const float* impulses, uint capacity, uint i, uint flags, ulong* ended) {
   for (uint k = 0; k < IMPULSES_OF_HIT; ++k) {
     if (!(flags & (ENTRY_ENDED0 << k))) continue;
-    const float signedShare = impulses[(size_t)(k * IMPULSE_PLANES + IMPULSE_THROUGHPUT) * capacity + i];
+    const float signedShare = impulses[(size_t)(k * IMPULSE_STRIDE + IMPULSE_THROUGHPUT) * capacity + i];
     const float share = fabs(signedShare);
     const ulong units = (ulong)((share < ENDED_MOST ? share : ENDED_MOST) * ENDED_UNITS) + 1;
     const int straight = (flags & (ENTRY_STRAIGHT0 << k)) != 0;
@@ -91,7 +91,7 @@ __kernel void compact_impulse(const uint first, const uint count, const uint cap
                               __global const uchar* flags, __global const uint* offsets, __global const float* impulses,
                               __global const float* rays,  // the queue the impulses came from: slots, steps
                               __global const float* hits,  // read with STRAIGHT
-                              __global float* next) {      // [RAY_PLANES][capacity], RAY_PLANES_STRAIGHT
+                              __global float* next) {      // [RAY_PLANES…][capacity]
   const uint chunk = get_global_id(0);
   const uint begin = chunk * COMPACT_CHUNK;
   if (begin >= count) return;
@@ -101,7 +101,12 @@ __kernel void compact_impulse(const uint first, const uint count, const uint cap
     for (uint k = 0; k < IMPULSES_OF_HIT; ++k) {
       if (!(flags[i] & (ENTRY_IMPULSE0 << k))) continue;
       for (uint plane = 0; plane < IMPULSE_PLANES; ++plane)
-        next[(size_t)plane * capacity + out] = impulses[(size_t)(k * IMPULSE_PLANES + plane) * capacity + i];
+        next[(size_t)plane * capacity + out] = impulses[(size_t)(k * IMPULSE_STRIDE + plane) * capacity + i];
+#if HAS(TEXTURE_LEVELS)
+      for (uint plane = 0; plane < CONE_PLANES; ++plane)
+        next[(size_t)(RAY_CONE + plane) * capacity + out] =
+            impulses[(size_t)(k * IMPULSE_STRIDE + IMPULSE_PLANES + plane) * capacity + i];
+#endif
       next[(size_t)RAY_SLOT * capacity + out] = rays[(size_t)RAY_SLOT * capacity + first + i];
 #if HAS(STRAIGHT)
       const int straight = (flags[i] & (ENTRY_STRAIGHT0 << k)) != 0;

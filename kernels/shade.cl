@@ -144,6 +144,21 @@ INLINE Mask isEnded(const Arrivals* a, const Impulse* impulse, Real share, Mask 
 #endif
 }
 
+#if HAS(TEXTURE_LEVELS)
+/// The cone of an impulse, the first of its planes at `cones`: what goes straight on keeps its ray's.
+INLINE void storeCone(const RenderConstants* constants, const Arrivals* a, const Surfel* s, const Impulse* impulse,
+                      __global float* cones, uint capacity) {
+  Cone cone = bentCone(footprintOf(constants, a).width, a->cone.spread, s->bend, -dot3(s->n, a->d), s->n, impulse->w_i,
+                       interfaceEta(s));
+#if HAS(STRAIGHT)
+  cone.width = impulse->straight ? a->cone.width : cone.width;
+  cone.spread = impulse->straight ? a->cone.spread : cone.spread;
+#endif
+  STORE(cone.width, cones + (size_t)CONE_WIDTH * capacity);
+  STORE(cone.spread, cones + (size_t)CONE_SPREAD * capacity);
+}
+#endif
+
 /// Stores impulse k of the entries from i, where it carries anything, in the k-th set of planes, and returns its flags.
 /// Of what is not followed it stores the throughput alone, as layout.h says.
 INLINE Natural storeImpulse(const RenderConstants* constants, const Arrivals* a, const Surfel* s,
@@ -165,7 +180,7 @@ INLINE Natural storeImpulse(const RenderConstants* constants, const Arrivals* a,
 #if HAS(STRAIGHT)
   flags = carries & impulse->straight ? flags | (ENTRY_STRAIGHT0 << k) : flags;
 #endif
-  const uint base = k * IMPULSE_PLANES;
+  const uint base = k * IMPULSE_STRIDE;
   if (some(carries)) STORE(first, impulses + (size_t)(base + IMPULSE_THROUGHPUT) * capacity + i);
   if (!some(sent)) return flags;
   Real3 origin = offsetOrigin(constants, s, impulse->w_i);
@@ -176,6 +191,9 @@ INLINE Natural storeImpulse(const RenderConstants* constants, const Arrivals* a,
   storeReal3(impulses, capacity, base + IMPULSE_D, i, impulse->w_i);
   STORE(carried.y, impulses + (size_t)(base + IMPULSE_THROUGHPUT + 1) * capacity + i);
   STORE(carried.z, impulses + (size_t)(base + IMPULSE_THROUGHPUT + 2) * capacity + i);
+#if HAS(TEXTURE_LEVELS)
+  storeCone(constants, a, s, impulse, impulses + (size_t)(base + IMPULSE_PLANES) * capacity + i, capacity);
+#endif
   return flags;
 }
 
@@ -261,19 +279,9 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;
   const RenderConstants own = constants;
-#if HAS(STRAIGHT) || HAS(FAR_PLANE)
-  Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
-#if HAS(STRAIGHT)
-  loadSteps(rays, first + i, capacity, bounce, lastBounce, own.transparentBounces, &a);
-#endif
-#if HAS(FAR_PLANE)
-  endAtFarPlane(&own, rays, first + i, capacity, bounce, &a);
-#endif
-#else
-  const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
-#endif
-#if HAS(AOVS) || HAS(ONE_IMPULSE) || HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS) || HAS(GLOSS)
   const Batch ownBatch = batch;
+  const Arrivals a = arrivalsOf(&own, &ownBatch, rays, hits, first, count, capacity, bounce, lastBounce, i);
+#if HAS(AOVS) || HAS(ONE_IMPULSE) || HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS) || HAS(GLOSS)
   const uint active = count - i < LANES ? count - i : LANES;
   const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays, capacity, first + i, active);
 #endif
@@ -291,7 +299,7 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #endif
   Surfel s;
   if (some(a.hit)) {
-    s = surfelAt(&scene, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
+    s = surfelAt(&scene, a.triangle, a.o, a.d, a.t, a.b1, a.b2, footprintOf(&own, &a));
     const Real3 w_o = minus3(a.d);
     const Real3 attenuation = absorptionAlong(&s, distanceInside(&a));
 #if HAS(AMBIENT)
@@ -352,25 +360,15 @@ __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const B
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;
   const RenderConstants own = constants;
-#if HAS(STRAIGHT) || HAS(FAR_PLANE)
-  Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
-#if HAS(STRAIGHT)
-  loadSteps(rays, first + i, capacity, bounce, 0, 0, &a);
-#endif
-#if HAS(FAR_PLANE)
-  endAtFarPlane(&own, rays, first + i, capacity, bounce, &a);
-#endif
-#else
-  const Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
-#endif
+  const Batch ownBatch = batch;
+  const Arrivals a = arrivalsOf(&own, &ownBatch, rays, hits, first, count, capacity, bounce, 0, i);
   Natural found = (Natural)(0);
   if (some(a.hit)) {
 #if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS)
-    const Batch ownBatch = batch;
     const uint active = count - i < LANES ? count - i : LANES;
     const SampleNames names = sampleNames(&ownBatch, width, pixelOrder, rays, capacity, first + i, active);
 #endif
-    const Surfel s = surfelAt(&scene, a.triangle, a.o, a.d, a.t, a.b1, a.b2);
+    const Surfel s = surfelAt(&scene, a.triangle, a.o, a.d, a.t, a.b1, a.b2, footprintOf(&own, &a));
     const Real3 attenuation = absorptionAlong(&s, distanceInside(&a));
     Real3 radiance = loadReal3(entryRadiance, capacity, 0, i);
     found = directLight(&scene, &own, &s, minus3(a.d), a.hit, light, attenuation, i, capacity, shadows, &radiance,

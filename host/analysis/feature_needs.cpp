@@ -23,6 +23,7 @@ std::map<Feature, std::string> contradictions(const Settings& s) {
   if (!s.smoothTerminator) out[Feature::TERMINATOR] = "--no-smooth-terminator";
   if (!s.shadows) out[Feature::SHADOWS] = "shadows are switched off";
   if (s.backFaces == BackFaces::Show) out[Feature::ONE_SIDED] = "--back-faces is show";
+  if (s.textureFilter == TextureFilter::None) out[Feature::TEXTURE_LEVELS] = "--texture-filter is none";
   if (s.impulses == ImpulseMode::All) out[Feature::ONE_IMPULSE] = "--impulses is all";
   return out;
 }
@@ -98,7 +99,8 @@ std::vector<FeatureNeed> needsOfTextures() {
                                  {UV0, {TEXTURES}},
                                  {UV1, {TEXTURES}},
                                  {NEAREST_FILTER, {TEXTURES}},
-                                 {DEEP_TEXTURES, {TEXTURES}}};
+                                 {DEEP_TEXTURES, {TEXTURES}},
+                                 {TEXTURE_LEVELS, {TEXTURES}}};
 #undef WHITTLE_FEATURE
 #define WHITTLE_NEEDS(slot, FEATURE, encoding, factor, OTHERS) \
   needs.push_back({FEATURE, {TEXTURES}});                      \

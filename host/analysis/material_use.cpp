@@ -75,7 +75,9 @@ class Bits {
   void add(const Values&... values) {
     (append(values), ...);
   }
-  void add(const TextureSlot& s) { add(s.image, s.uvSet, s.wrapS, s.wrapT, s.filter, s.transform); }
+  void add(const TextureSlot& s) {
+    add(s.image, s.uvSet, s.wrapS, s.wrapT, s.filter, s.hasLevels, s.transform);
+  }
   std::string text;
 
  private:
@@ -87,6 +89,10 @@ class Bits {
 };
 
 }  // namespace
+
+void dropLevels(Material& m) {
+  for (const auto slot : kTextureSlots) (m.*slot).hasLevels = false;
+}
 
 Material asRead(const Material& m, const Settings& settings) {
   Material read = m.unlit ? unlitParts(m, settings.aovs) : m;
@@ -102,6 +108,7 @@ Material asRead(const Material& m, const Settings& settings) {
   if (!isMasked(read)) read.alphaCutoff = 0.5F;
   for (const auto slot : kTextureSlots)
     if (!(read.*slot).used()) read.*slot = {};
+  if (settings.textureFilter == TextureFilter::None) dropLevels(read);
   return read;
 }
 

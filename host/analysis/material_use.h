@@ -12,6 +12,9 @@ namespace whittle {
 /// use for, textures that are multiplied by 0, the cutoff of a mode that does not cut.
 Material asRead(const Material& material, const Settings& settings);
 
+/// Textures of the material are seen as the file has them, however small they are seen.
+void dropLevels(Material& material);
+
 /// Equal for materials that are equal in every bit, and only for them.
 std::string bitsOf(const Material& material);
 

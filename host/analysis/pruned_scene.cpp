@@ -219,7 +219,12 @@ PrunedScene unprunedScene(const Scene& scene) {
 }
 
 PrunedScene pruneScene(const Scene& scene, const Settings& settings, TexelFacts* texels) {
-  if (settings.keepAllFeatures) return unprunedScene(scene);
+  if (settings.keepAllFeatures) {
+    PrunedScene whole = unprunedScene(scene);
+    if (settings.textureFilter == TextureFilter::None)
+      for (Material& m : whole.materials) dropLevels(m);
+    return whole;
+  }
   PrunedScene pruned;
   pruned.sharesSlots = true;
   const Flags used = usedMaterials(scene);

@@ -63,6 +63,14 @@ class Needs {
     });
   }
 
+  /// Whether a texture has smaller levels than the one in the file.
+  bool textureLevels() const {
+    return settings.textureFilter != TextureFilter::None && anySlot([&](const TextureSlot& slot) {
+             const Image& image = imageOf(slot);
+             return slot.hasLevels && (image.width > 1 || image.height > 1);
+           });
+  }
+
   bool lit() const { return !pruned.lights.empty(); }
   /// A question of material_predicates.h that depends on what counts as a mirror.
   bool anyMaterial(bool (*asked)(const Material&, float)) const {
@@ -109,6 +117,7 @@ struct Question {
 
 std::vector<Question> geometryQuestions(const Needs& n) {
   using F = Feature;
+  const bool isFiltered = n.settings.textureFilter != TextureFilter::None;
   return {
       {F::PACKETS, n.packets(), "the device traces one ray for each work item", true},
       {F::TREE, n.tree(), "so few triangles are searched one by one", true},
@@ -121,6 +130,8 @@ std::vector<Question> geometryQuestions(const Needs& n) {
        "no texture reads a second UV set"},
       {F::NEAREST_FILTER, n.anySlot([](const TextureSlot& s) { return s.filter == Filter::Nearest; }),
        "every texture is filtered"},
+      {F::TEXTURE_LEVELS, n.textureLevels(),
+       isFiltered ? "no texture can be seen smaller than it is" : "--texture-filter is none", !isFiltered},
       {F::DEEP_TEXTURES, n.deepTextures(), "no map has more than 8 bits"},
   };
 }

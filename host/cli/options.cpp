@@ -154,6 +154,10 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
            "backward tracing steps; 1 = direct light only. A note says if much ends there, --stats how much");
   addWhole(c, "--transparent-bounces", s.transparentBounces, 0, 4096, "N",
            "surfaces that a ray may pass straight on, besides its bounces: blended or clear ones");
+  addChoice(c, "--texture-filter", s.textureFilter,
+            "what a ray sees of a texture that is finer than its pixel: the texels that it hits, the mean of "
+            "a circle, or "
+            "of a strip as long as the pixel is on the surface");
   addChoice(c, "--back-faces", s.backFaces,
             "backs of single-sided surfaces that light does not pass; shadow rays meet them in any case");
   c.add_flag(
@@ -342,6 +346,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   LoadOptions load;
   load.memory = &budget;
   load.laterTriangleBytes = costs.triangleBytes;
+  load.laterTextureLevels = settings.textureFilter != TextureFilter::None;
   load.camera = settings.camera;
   load.viewpoint = chosenViewpoint(options.view);
   if (hasSize) load.aspect = static_cast<double>(settings.width) / settings.height;

@@ -40,6 +40,7 @@ constexpr std::array kRows{
     Row{"dither", "Picture", "dither", Kind::Switch},
     Row{"aperture", "Picture", "aperture, m", Kind::Real},
     Row{"focus-distance", "Picture", "focus, m", Kind::Text},
+    Row{"texture-filter", "Picture", "texture filter", Kind::Choice},
     Row{"sampler", "Picture", "sampler", Kind::Choice},
     Row{"seed", "Picture", "seed", Kind::Whole},
     Row{"shadows", "Light", "shadows", Kind::Switch},

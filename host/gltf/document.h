@@ -54,6 +54,7 @@ struct Document {
   Notices* notices = nullptr;                  ///< never null once the file is opened
   MemoryBudget* budget = nullptr;              ///< never null
   bool isPosed = false;                        ///< an animation will move its nodes
+  bool textureLevels = false;                  ///< smaller levels of its textures will take memory
   bool confined = false;                       ///< files outside `folder` are not read
   std::vector<std::filesystem::path> outside;  ///< that were asked for, each once
 

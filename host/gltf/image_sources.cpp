@@ -96,6 +96,8 @@ void ImageSources::hold(const std::set<int>& materials) {
                   static_cast<double>(pixels) / 1e6);
   document_.pass(bytes + decoder, what);
   document_.hold(bytes, what);
+  // A quarter of each level is the next.
+  if (document_.textureLevels) document_.promise(bytes / 3, "the smaller levels of its images");
 }
 
 }  // namespace whittle::gltf

@@ -212,6 +212,7 @@ Scene loadFile(const std::filesystem::path& path, const LoadOptions& options, No
   document.isPosed = options.time || options.animation;
   MemoryBudget own(options.memory ? MemoryLimit{} : memoryLimitOfMachine());
   document.budget = options.memory ? options.memory : &own;
+  document.textureLevels = options.laterTextureLevels;
   try {
     gltf::openDocument(document, path, notices);
     gltf::load(document, options, scene, notices);

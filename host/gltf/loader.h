@@ -30,6 +30,7 @@ struct LoadOptions {
   /// What each triangle will cost whoever asked for the scene, beside its own arrays: a file is refused for
   /// that as well.
   std::uint64_t laterTriangleBytes = 0;
+  bool laterTextureLevels = false;  ///< the same of smaller levels of its textures
 };
 
 /// Reads `path`. Throws InputError with one line if it cannot be used; says in `notices` what was ignored or

@@ -79,6 +79,9 @@ TextureSlot TextureReader::slot(const Json& owner, const char* key) {
     slot.wrapS = wrapOf(s.wrapS);
     slot.wrapT = wrapOf(s.wrapT);
     slot.filter = s.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? Filter::Nearest : Filter::Linear;
+    // Texels that shall stay texels: drawn pixel by pixel. LINEAR without MIPMAP is what exporters write who
+    // do not care, and nobody wants the shimmer that it stands for.
+    slot.hasLevels = s.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
   }
   slot.image = imageOf(texture);
   return slot;

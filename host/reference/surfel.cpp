@@ -5,6 +5,7 @@
 #include <array>
 
 #include "kernels/shared/layout.h"
+#include "reference/cone.h"
 #include "reference/texture.h"
 
 namespace whittle::reference {
@@ -19,12 +20,23 @@ Out interpolate(const Scene& scene, const std::vector<In>& values, const Hit& hi
          hit.barycentric[2] * Out(values[t.v2]);
 }
 
-Vec4 textureAt(const Scene& scene, const TextureSlot& slot, const Hit& hit,
-               Encoding encoding = Encoding::Linear) {
-  if (!slot.used()) return Vec4(1);
-  return sampleTexture(scene, slot, interpolate(scene, slot.uvSet == 1 ? scene.uv1 : scene.uv0, hit, Vec2(0)),
-                       encoding);
-}
+/// The textures at a hit. Searches have no ray that stands for anything: they read texels as they are.
+struct Lookups {
+  const Scene& scene;
+  const Hit& hit;
+  const Ray* ray = nullptr;
+  Filtering filtering = {};
+
+  Vec4 of(const TextureSlot& slot, const Mean& mean = {}) const {
+    if (!slot.used()) return Vec4(1);
+    const Vec2 uv = interpolate(scene, slot.uvSet == 1 ? scene.uv1 : scene.uv0, hit, Vec2(0));
+    if (!filtering.levels) return sampleTexture(scene, slot, uv, mean.encoding);
+    const Footprint footprint = footprintOf(scene, *ray, hit.triangle, slot.uvSet, filtering.width);
+    return filteredTexture(scene, *filtering.levels, slot, uv, footprint, mean);
+  }
+};
+
+constexpr Mean kColors{Encoding::Srgb, false};
 
 const Material& materialOf(const Scene& scene, const Hit& hit) {
   return scene.materials[scene.triangles[hit.triangle].material];
@@ -69,12 +81,13 @@ std::optional<Vec3> liftAt(const Scene& scene, const TriangleIndex& triangles, c
 }
 
 /// `n` tilted by the material's normal map; `n` itself where there is none or no tangent to lay it along.
-Vec3 mappedNormal(const Scene& scene, const Material& material, const Hit& hit, const Vec3& n) {
+Vec3 mappedNormal(const Lookups& look, const Material& material, const Vec3& n) {
+  const auto& [scene, hit, ray, filtering] = look;
   if (!material.normalTexture.used() || scene.tangents.empty()) return n;
   const Vec3 tangent(interpolate(scene, scene.tangents, hit, Vec4(0)));
   const Vec3 T = glm::normalize(tangent - n * glm::dot(n, tangent));
   const Vec3 B = static_cast<double>(scene.tangents[scene.triangles[hit.triangle].v0].w) * glm::cross(n, T);
-  Vec3 t = Vec3(textureAt(scene, material.normalTexture, hit)) * 2.0 - 1.0;
+  Vec3 t = Vec3(look.of(material.normalTexture)) * 2.0 - 1.0;
   t.x *= material.normalScale;
   t.y *= material.normalScale;
   const Vec3 mapped = glm::normalize(T * t.x + B * t.y + n * t.z);
@@ -89,19 +102,18 @@ double rayOffsetAt(const Settings& settings, const TriangleIndex& triangles, con
   return std::max(0x1p-20 * maxComponent(size), 1e-30);
 }
 
-double metallicAt(const Scene& scene, const Material& material, const Hit& hit) {
-  return std::clamp(material.metallic * textureAt(scene, material.metallicRoughnessTexture, hit).b, 0.0, 1.0);
+double metallicAt(const Lookups& look, const Material& material) {
+  return std::clamp(material.metallic * look.of(material.metallicRoughnessTexture).b, 0.0, 1.0);
 }
 
-double transmissionAt(const Scene& scene, const Material& material, const Hit& hit) {
+double transmissionAt(const Lookups& look, const Material& material) {
   if (material.unlit) return 0;
-  return std::clamp(material.transmission * textureAt(scene, material.transmissionTexture, hit).r, 0.0, 1.0);
+  return std::clamp(material.transmission * look.of(material.transmissionTexture).r, 0.0, 1.0);
 }
 
-TintedFresnel fresnelAt(const Scene& scene, const Material& material, const Hit& hit) {
-  return TintedFresnel(material.ior, material.specular * textureAt(scene, material.specularTexture, hit).a,
-                       Vec3(material.specularColor) *
-                           Vec3(textureAt(scene, material.specularColorTexture, hit, Encoding::Srgb)));
+TintedFresnel fresnelAt(const Lookups& look, const Material& material) {
+  return TintedFresnel(material.ior, material.specular * look.of(material.specularTexture).a,
+                       Vec3(material.specularColor) * Vec3(look.of(material.specularColorTexture, kColors)));
 }
 
 /// Index beyond over index here. A sheet looks the same from both sides; 0 (all is reflected) stays 0.
@@ -111,9 +123,10 @@ double relativeIndex(const Material& material, bool front) {
 }
 
 /// Base colour and coverage at a hit; coverage as the alpha mode has it (1 for opaque, unchanged for MASK).
-Vec4 baseColorAt(const Scene& scene, const Hit& hit) {
+Vec4 baseColorAt(const Lookups& look) {
+  const auto& [scene, hit, ray, filtering] = look;
   const Material& material = materialOf(scene, hit);
-  Vec4 color = Vec4(material.baseColor) * textureAt(scene, material.baseColorTexture, hit, Encoding::Srgb) *
+  Vec4 color = Vec4(material.baseColor) * look.of(material.baseColorTexture, meanOfBaseColor(material)) *
                interpolate(scene, scene.colors, hit, Vec4(1));
   color.a = material.alphaMode == AlphaMode::Opaque ? 1.0 : std::clamp(color.a, 0.0, 1.0);
   return color;
@@ -123,38 +136,39 @@ Vec4 baseColorAt(const Scene& scene, const Hit& hit) {
 
 bool passesMask(const Scene& scene, const Hit& hit) {
   const Material& material = materialOf(scene, hit);
-  return material.alphaMode != AlphaMode::Mask || !(baseColorAt(scene, hit).a < material.alphaCutoff);
+  return material.alphaMode != AlphaMode::Mask || !(baseColorAt({scene, hit}).a < material.alphaCutoff);
 }
 
 Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIndex& triangles,
-                  const Ray& ray, const Hit& hit) {
+                  const Ray& ray, const Hit& hit, const Filtering& filtering) {
+  const Lookups look{scene, hit, &ray, filtering};
   const Material& material = materialOf(scene, hit);
   const Vec3 w_o = -ray.direction;
   const Vec3 n_g = geometricNormal(triangles, hit);
   const auto corners = triangles.corners(hit.triangle);
-  const Vec4 color = baseColorAt(scene, hit);
+  const Vec4 color = baseColorAt(look);
 
   Surfel surfel{
       .position =
           hit.barycentric[0] * corners[0] + hit.barycentric[1] * corners[1] + hit.barycentric[2] * corners[2],
       .facing = n_g,
-      .n = mappedNormal(scene, material, hit, interpolatedNormal(scene, hit, n_g)),
+      .n = mappedNormal(look, material, interpolatedNormal(scene, hit, n_g)),
       .front = glm::dot(n_g, w_o) > 0,
       .rayOffset = rayOffsetAt(settings, triangles, hit),
       .baseColor = Vec3(color),
       .alpha = material.alphaMode == AlphaMode::Blend ? color.a : 1.0,
-      .metallic = metallicAt(scene, material, hit),
-      .roughness = std::clamp(material.roughness * textureAt(scene, material.metallicRoughnessTexture, hit).g,
-                              0.0, 1.0),
-      .transmission = transmissionAt(scene, material, hit),
+      .metallic = metallicAt(look, material),
+      .roughness = std::clamp(material.roughness * look.of(material.metallicRoughnessTexture).g, 0.0, 1.0),
+      .transmission = transmissionAt(look, material),
       .smooth = false,
       .glossy = false,
       .volume = material.volume,
       .unlit = material.unlit,
-      .fresnel = fresnelAt(scene, material, hit),
+      .fresnel = fresnelAt(look, material),
       .eta = 1,
       .emission = Vec3(0),
-      .sigma_a = Vec3(material.sigma_a)};
+      .sigma_a = Vec3(material.sigma_a),
+      .bend = bendOf(scene, hit.triangle)};
   surfel.smooth = surfel.roughness < static_cast<double>(settings.mirrorRoughness);
   surfel.glossy = settings.glossy && !surfel.smooth && !surfel.unlit;
   surfel.eta = relativeIndex(material, surfel.front);
@@ -163,11 +177,11 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
   if (!surfel.front) {
     surfel.facing = -surfel.facing;
     surfel.n = -surfel.n;
+    surfel.bend = -surfel.bend;
   }
   if (glm::dot(surfel.n, w_o) <= 0) surfel.n = surfel.facing;
   if (surfel.front || material.doubleSided) {
-    surfel.emission =
-        Vec3(material.emission) * Vec3(textureAt(scene, material.emissionTexture, hit, Encoding::Srgb));
+    surfel.emission = Vec3(material.emission) * Vec3(look.of(material.emissionTexture, kColors));
   }
   return surfel;
 }
@@ -175,10 +189,10 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
 Vec3 shadowTransmittance(const Scene& scene, const TriangleIndex& triangles, const Ray& ray, const Hit& hit) {
   const Material& material = materialOf(scene, hit);
   if (!passesMask(scene, hit)) return Vec3(1);
-  const Vec4 color = baseColorAt(scene, hit);
+  const Lookups look{scene, hit};
+  const Vec4 color = baseColorAt(look);
   const double a = material.alphaMode == AlphaMode::Blend ? color.a : 1.0;
-  const double transmitted =
-      a * transmissionAt(scene, material, hit) * (1 - metallicAt(scene, material, hit));
+  const double transmitted = a * transmissionAt(look, material) * (1 - metallicAt(look, material));
   if (transmitted == 0) return Vec3(1 - a);
   const double cosine = std::min(1.0, std::abs(glm::dot(geometricNormal(triangles, hit), ray.direction)));
   return glm::clamp(1 - a + transmitted * Vec3(color) * (1 - dielectricReflectance(cosine, material.ior)),

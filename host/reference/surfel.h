@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "reference/fresnel.h"
+#include "reference/texture_levels.h"
 #include "reference/triangle_index.h"
 #include "scene/settings.h"
 
@@ -25,17 +26,25 @@ struct Surfel {
   bool volume;  ///< bounds a solid: rays refract
   bool unlit;
   TintedFresnel fresnel;
-  double eta;     ///< index beyond over index on the viewer's side
-  Vec3 emission;  ///< towards the viewer, W/(m² sr)
-  Vec3 sigma_a;   ///< 1/m, of the solid behind the front
+  double eta;       ///< index beyond over index on the viewer's side
+  Vec3 emission;    ///< towards the viewer, W/(m² sr)
+  Vec3 sigma_a;     ///< 1/m, of the solid behind the front
+  double bend = 0;  ///< curvature: half the divergence, 1/m, of vertex normals turned to the viewer
   /// With Settings::smoothTerminator, where the vertex normals mean a curved surface: from `position` to
   /// that, m.
   std::optional<Vec3> lift = {};
 };
 
+/// How a ray reads textures: the mean over what it stands for, where its cone is `width` metres wide. Without
+/// levels: as they are.
+struct Filtering {
+  const TextureLevels* levels = nullptr;
+  double width = 0;
+};
+
 /// The surface as seen along `ray`, which hits it.
 Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIndex& triangles,
-                  const Ray& ray, const Hit& hit);
+                  const Ray& ray, const Hit& hit, const Filtering& filtering = {});
 
 /// Whether the alpha mask leaves this hit standing.
 bool passesMask(const Scene& scene, const Hit& hit);

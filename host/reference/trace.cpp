@@ -110,8 +110,8 @@ Vec3 impulseLight(const World& world, const Sample& sample, const Ray& arrived, 
     impulses = chooseOne(impulses, unit(hash(sample.pixel, sample.index, dimension, world.settings.seed)));
   }
   const bool branches = impulses.count == 2 && (impulses.items[0].straight || impulses.items[1].straight);
-  const Step passing{step.bounce, step.passed + 1, std::min(step.branched + (branches ? 1 : 0), 63), hit,
-                     notes.index()};
+  const Step passing{step.bounce, step.passed + 1, std::min(step.branched + (branches ? 1 : 0), 63),
+                     hit,         notes.index(),   step.cone};
   Vec3 sum(0);
   for (const Impulse& impulse : impulses.all()) {
     const Vec3 share = throughput * impulse.magnitude;
@@ -137,7 +137,8 @@ Vec3 impulseLight(const World& world, const Sample& sample, const Ray& arrived, 
     }
     const double side = impulse.through ? -1 : 1;
     const Ray ray{surfel.position + side * surfel.rayOffset * surfel.facing, impulse.w_i};
-    const Step next{step.bounce + 1, step.passed, step.branched, {}, notes.index()};
+    const Cone cone = afterImpulse(step.cone, widthAt(step.cone, hit.t), surfel, arrived.direction, impulse);
+    const Step next{step.bounce + 1, step.passed, step.branched, {}, notes.index(), cone};
     sum += impulse.magnitude * Li(world, sample, ray, next, share);
   }
   return sum;
@@ -244,7 +245,8 @@ Vec3 Li(const World& world, const Sample& sample, const Ray& ray, const Step& st
     notes.local(background);
     return background;
   }
-  const Surfel surfel = makeSurfel(world.scene, world.settings, world.triangles, ray, *hit);
+  const Surfel surfel = makeSurfel(world.scene, world.settings, world.triangles, ray, *hit,
+                                   {&world.levels, widthAt(step.cone, hit->t)});
   const Vec3 kept = absorption(surfel, hit->t - (step.after ? step.after->t : 0));
   notes.meets(world, ray, *hit, surfel, kept);
   Vec3 radiance = surfel.alpha * (surfel.unlit ? surfel.baseColor : surfel.emission);
@@ -277,13 +279,18 @@ Ray eyeRayOf(const World& world, int x, int y, std::uint32_t sample) {
                                     static_cast<std::uint32_t>(s.raysPerPixel), kLensDimension, s.seed));
 }
 
+Step eyeStep(const World& world, const Ray& ray, std::uint32_t sample) {
+  return {.cone = eyeCone(world.camera, world.settings, ray, sample)};
+}
+
 }  // namespace
 
 RayTree treeOfSample(const World& world, int x, int y, std::uint32_t sample) {
   RayTree tree;
   RayCounts rays;
   const Sample traced{pixelIndex(world, x, y), sample, rays, nullptr, &tree};
-  const Vec3 radiance = Li(world, traced, eyeRayOf(world, x, y, sample), {}, Vec3(1));
+  const Ray ray = eyeRayOf(world, x, y, sample);
+  const Vec3 radiance = Li(world, traced, ray, eyeStep(world, ray, sample), Vec3(1));
   tree.radiance = isFiniteInSinglePrecision(radiance) ? radiance : Vec3(0);
   return tree;
 }
@@ -296,8 +303,8 @@ PixelResult traceOnePixel(const World& world, int x, int y, RayCounts& rays) {
     const Ray ray = eyeRayOf(world, x, y, s);
     ++rays.primary;
     double transmittance = 0;
-    const Vec3 radiance =
-        Li(world, {pixel, s, rays, &transmittance}, ray, {}, Vec3(1), s == 0 ? &result.seen : nullptr);
+    const Vec3 radiance = Li(world, {pixel, s, rays, &transmittance}, ray, eyeStep(world, ray, s), Vec3(1),
+                             s == 0 ? &result.seen : nullptr);
     if (isFiniteInSinglePrecision(radiance)) {
       result.radiance += radiance;
       result.transmittance += transmittance;

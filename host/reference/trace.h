@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "reference/bsdf.h"
+#include "reference/cone.h"
 #include "reference/reference.h"
 #include "scene/emitters.h"
 #include "scene/ray_tree.h"
@@ -20,6 +21,7 @@ struct World {
   const Camera& camera;
   std::vector<Emitter> emitters = emittersOf(scene);
   SkyTable sky = hasSkyLight(scene) ? skyTableOf(scene.background) : SkyTable{};
+  TextureLevels levels = TextureLevels(scene, settings);
 };
 
 /// One sample of one pixel, and where its rays are counted.
@@ -42,6 +44,7 @@ struct Step {
   int branched = 0;
   std::optional<Hit> after = {};
   int parent = -1;  ///< the ray that this one comes of, in Sample::tree
+  Cone cone = {};   ///< of the ray
 };
 
 /// The first surface after `after`, in the order of README.md, that alpha masks and back faces leave

@@ -26,6 +26,15 @@ std::uint64_t bytesOf(const Scene& s) {
   return bytes;
 }
 
+/// The images that are let go when the device has them.
+std::uint64_t uploadedImages(const Scene& scene, const RenderPlan& plan) {
+  if (!plan.features.has(Feature::TEXTURES)) return 0;
+  std::uint64_t bytes = 0;
+  for (const std::uint32_t i : plan.pruned.images)
+    bytes += bytesOf(scene.images[i].texels) + bytesOf(scene.images[i].deepTexels);
+  return bytes;
+}
+
 std::uint64_t pixelsOf(const Settings& s) { return tracedRegion(s).pixels(); }
 
 /// Of the device's buffers; of queues the part that the picture's samples reach.
@@ -87,7 +96,7 @@ std::uint64_t peakBytes(const Scene& scene, const RenderPlan& plan, std::uint64_
   // Attributes and images leave this side when they have come to the other.
   const std::uint64_t attributes =
       bytesOf(scene.normals) + bytesOf(scene.tangents) + bytesOf(scene.uv0) + bytesOf(scene.uv1);
-  const std::uint64_t whole = bytesOf(scene), drawn = whole - attributes - device.named("texels");
+  const std::uint64_t whole = bytesOf(scene), drawn = whole - attributes - uploadedImages(scene, plan);
   std::uint64_t largest = std::max(bytesOf(scene.normals), bytesOf(scene.tangents));
   for (const Image& image : scene.images)
     largest = std::max(largest, bytesOf(image.texels) + bytesOf(image.deepTexels));

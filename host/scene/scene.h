@@ -41,6 +41,7 @@ struct TextureSlot {
   Wrap wrapS = Wrap::Repeat;
   Wrap wrapT = Wrap::Repeat;
   Filter filter = Filter::Linear;
+  bool hasLevels = true;  ///< where it is seen small its mean is seen; false: the nearest texels, as they are
   /// Two rows of three: u' = t[0]·u + t[1]·v + t[2], v' = t[3]·u + t[4]·v + t[5] (KHR_texture_transform).
   std::array<float, 6> transform{1, 0, 0, 0, 1, 0};
 

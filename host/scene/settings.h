@@ -17,6 +17,7 @@ enum class ImpulseMode : std::uint8_t { All, One };
 enum class Lanes : std::uint8_t { Auto, One, Sixteen };
 enum class ToneMap : std::uint8_t { Auto, None, Filmic };
 enum class BackFaces : std::uint8_t { Cull, Show };
+enum class TextureFilter : std::uint8_t { None, Mip, Anisotropic };
 
 /// What a value is called on the command line and in the statistics.
 template <typename T>
@@ -35,6 +36,9 @@ inline constexpr Word<ToneMap> kToneMapWords[]{
 constexpr const auto& wordsOf(ToneMap) { return kToneMapWords; }
 inline constexpr Word<BackFaces> kBackFacesWords[]{{"cull", BackFaces::Cull}, {"show", BackFaces::Show}};
 constexpr const auto& wordsOf(BackFaces) { return kBackFacesWords; }
+inline constexpr Word<TextureFilter> kTextureFilterWords[]{
+    {"none", TextureFilter::None}, {"mip", TextureFilter::Mip}, {"anisotropic", TextureFilter::Anisotropic}};
+constexpr const auto& wordsOf(TextureFilter) { return kTextureFilterWords; }
 constexpr const auto& wordsOf(Search) { return kSearchWords; }
 constexpr const auto& wordsOf(Sampler) { return kSamplerWords; }
 constexpr const auto& wordsOf(ImpulseMode) { return kImpulseWords; }
@@ -66,7 +70,9 @@ struct Settings {
   /// Radiance, W/(m² sr), that every lit surface receives from all sides, unshadowed: Whitted's ambient term.
   /// Unset: chosen for the scene (automaticAmbient) before it is rendered.
   std::optional<float> ambient = 0.0F;
-  int raysPerPixel = 1;      ///< 1 = through the pixel's centre
+  int raysPerPixel = 1;  ///< 1 = through the pixel's centre
+  /// Over what part of a texture a ray takes its mean: none of it, a circle, or a strip of circles.
+  TextureFilter textureFilter = TextureFilter::Anisotropic;
   bool areaLights = false;   ///< surfaces that glow light others; loading has added the light to the scene
   bool skyLight = false;     ///< the background lights surfaces; loading has added the light to the scene
   /// Where a smooth surface is made of coarse triangles, shadow rays start on the curved surface that its
@@ -134,6 +140,7 @@ void eachSetting(const Settings& s, const Visit& visit) {
   visit("cutoff", s.cutoff);
   visit("ambient", s.ambient);
   visit("raysPerPixel", s.raysPerPixel);
+  visit("textureFilter", s.textureFilter);
   visit("areaLights", s.areaLights);
   visit("skyLight", s.skyLight);
   visit("smoothTerminator", s.smoothTerminator);

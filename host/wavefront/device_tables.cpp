@@ -17,7 +17,21 @@ namespace whittle {
 namespace {
 
 static_assert(sizeof(device::DeviceLight) == 64);
-static_assert(sizeof(device::DeviceTexture) == 52);
+static_assert(sizeof(device::DeviceTexture) == 56);
+
+std::size_t wordsOf(const Image& image, bool isDeep, Averaging levels) {
+  const std::size_t texels = levels == Averaging::None ? static_cast<std::size_t>(image.width) * image.height
+                                                       : texelsOfLevels(image.width, image.height);
+  return texels * (isDeep ? 2 : 1);
+}
+
+/// An image as some slots read it.
+struct Form {
+  int image = 0;  ///< of PrunedScene::images
+  bool isDeep = false;
+  Averaging levels = Averaging::None;
+  auto operator<=>(const Form&) const = default;
+};
 
 /// Texture slots and the places of the texels they read, shared where two slots are the same or read the same
 /// image.
@@ -25,14 +39,17 @@ class TextureAtlas {
  public:
   TextureAtlas(const Scene& scene, const PrunedScene& pruned) : scene_(scene), pruned_(pruned) {}
 
-  /// Index of the slot on the device, -1 for an empty one.
-  int add(const TextureSlot& slot, bool isLinear) {
+  /// Index of the slot on the device, -1 for an empty one. `levels`: how its smaller levels are made, if it
+  /// has any.
+  int add(const TextureSlot& slot, bool isLinear, Averaging levels) {
     if (!slot.used()) return -1;
     const Image& image = scene_.images[pruned_.images[static_cast<std::size_t>(slot.image)]];
     const bool isDeep = readsDeepTexels(image, isLinear);
     device::DeviceTexture t{};
     std::copy(slot.transform.begin(), slot.transform.end(), t.transform);
-    t.firstTexel = firstTexel(slot.image, image, isDeep);
+    const bool isOne = !slot.hasLevels || levelCount(image.width, image.height) == 1;
+    t.firstTexel = firstTexel({slot.image, isDeep, isOne ? Averaging::None : levels}, image);
+    t.levels = isOne ? 1U : static_cast<std::uint32_t>(levelCount(image.width, image.height));
     t.width = image.width;
     t.height = image.height;
     t.wrapS = static_cast<std::uint32_t>(slot.wrapS);
@@ -45,7 +62,7 @@ class TextureAtlas {
   std::vector<TexelRange> ranges() const {
     std::vector<TexelRange> ranges;
     for (const auto& [key, word] : first_)
-      ranges.push_back({pruned_.images[static_cast<std::size_t>(key.first)], key.second, word});
+      ranges.push_back({pruned_.images[static_cast<std::size_t>(key.image)], key.isDeep, word, key.levels});
     return ranges;
   }
 
@@ -61,18 +78,17 @@ class TextureAtlas {
   }
 
   /// An image that colours and other values read is there in both forms.
-  std::uint32_t firstTexel(int index, const Image& image, bool isDeep) {
-    const auto [at, isNew] = first_.try_emplace({index, isDeep}, words_);
-    if (isNew)
-      words_ += static_cast<std::uint32_t>(isDeep ? image.deepTexels.size() / 2 : image.texels.size() / 4);
+  std::uint32_t firstTexel(const Form& form, const Image& image) {
+    const auto [at, isNew] = first_.try_emplace(form, words_);
+    if (isNew) words_ += static_cast<std::uint32_t>(wordsOf(image, form.isDeep, form.levels));
     return at->second;
   }
 
   const Scene& scene_;
   const PrunedScene& pruned_;
-  std::map<std::pair<int, bool>, std::uint32_t> first_;  ///< word, by image and whether it is deep
-  std::uint32_t words_ = 0;                              ///< of all of them
-  std::unordered_map<std::string, int> known_;           ///< slots by their bits
+  std::map<Form, std::uint32_t> first_;         ///< word
+  std::uint32_t words_ = 0;                     ///< of all of them
+  std::unordered_map<std::string, int> known_;  ///< slots by their bits
 };
 
 static_assert(static_cast<int>(Wrap::Repeat) == WRAP_REPEAT && static_cast<int>(Wrap::Clamp) == WRAP_CLAMP &&
@@ -80,13 +96,21 @@ static_assert(static_cast<int>(Wrap::Repeat) == WRAP_REPEAT && static_cast<int>(
 
 constexpr bool isLinear(int encoding) { return encoding == device::LINEAR; }
 
+/// How a slot of a material is averaged. Of a surface with holes only what is there lends its colour.
+Averaging averagingOf(const Material& m, const TextureSlot& slot, int encoding) {
+  if (isLinear(encoding)) return Averaging::Linear;
+  const bool hasHoles = &slot == &m.baseColorTexture && m.alphaMode != AlphaMode::Opaque;
+  return hasHoles ? Averaging::ColorsByAlpha : Averaging::Colors;
+}
+
 device::DeviceMaterial toDevice(const Material& m, TextureAtlas& atlas) {
   device::DeviceMaterial d{};
 #define WHITTLE_VECTOR(name, size, ...) \
   for (int k = 0; k < size; ++k) d.name[k] = m.name[k];
 #define WHITTLE_SCALAR(name, ...) d.name = m.name;
 #define WHITTLE_INDEX(slot, FEATURE, encoding, factor, OTHERS) \
-  d.slot = atlas.add(m.slot, isLinear(device::slot##Encoding));
+  d.slot =                                                     \
+      atlas.add(m.slot, isLinear(device::slot##Encoding), averagingOf(m, m.slot, device::slot##Encoding));
   WHITTLE_MATERIAL_FACTORS(WHITTLE_VECTOR, WHITTLE_SCALAR)
   WHITTLE_TEXTURE_SLOTS(WHITTLE_INDEX)
 #undef WHITTLE_VECTOR
@@ -157,16 +181,21 @@ DeviceTables tablesOf(const Scene& scene, const PrunedScene& pruned) {
 Buffer uploadTexels(Compute& compute, const Scene& scene, const std::vector<TexelRange>& ranges,
                     Scene* consumed) {
   static_assert(std::endian::native == std::endian::little);
-  const auto bytesOf = [&](const TexelRange& r) {
-    const Image& image = scene.images[r.image];
-    return r.isDeep ? std::as_bytes(std::span(image.deepTexels)) : std::as_bytes(std::span(image.texels));
-  };
   std::size_t all = 0;
-  for (const TexelRange& r : ranges) all = std::max(all, std::size_t{r.first} * 4 + bytesOf(r).size());
+  for (const TexelRange& r : ranges)
+    all = std::max(all, std::size_t{r.first} * 4 + 4 * wordsOf(scene.images[r.image], r.isDeep, r.levels));
   Buffer buffer = compute.allocate("texels", all);
+  if (!buffer.handle.get()) return buffer;  // sizes alone are asked for
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const TexelRange& r = ranges[i];
-    compute.write(buffer, std::size_t{r.first} * 4, bytesOf(r));
+    const Image& image = scene.images[r.image];
+    std::size_t at = std::size_t{r.first} * 4;
+    const auto write = [&](std::span<const std::byte> level) {
+      compute.write(buffer, at, level);
+      at += level.size();
+    };
+    write(r.isDeep ? std::as_bytes(std::span(image.deepTexels)) : std::as_bytes(std::span(image.texels)));
+    eachSmallerLevel(image, r.levels, r.isDeep, write);
     const bool isLast = i + 1 == ranges.size() || ranges[i + 1].image != r.image;
     if (!isLast || !consumed) continue;
     Image& taken = consumed->images[r.image];

@@ -11,6 +11,7 @@
 #include "kernels/shared/layout.h"
 #include "scene/emitters.h"
 #include "scene/scene.h"
+#include "wavefront/texture_levels.h"
 
 namespace whittle {
 
@@ -23,9 +24,10 @@ struct SurfaceKind {
 
 /// Where the texels of an image begin.
 struct TexelRange {
-  std::uint32_t image = 0;  ///< of Scene::images
-  bool isDeep = false;      ///< its 16-bit texels
-  std::uint32_t first = 0;  ///< word
+  std::uint32_t image = 0;             ///< of Scene::images
+  bool isDeep = false;                 ///< its 16-bit texels
+  std::uint32_t first = 0;             ///< word
+  Averaging levels = Averaging::None;  ///< how the smaller levels behind them are made
   bool operator==(const TexelRange&) const = default;
 };
 

@@ -16,9 +16,13 @@ bool asksForDistances(const SceneFeatures& features) {
          features.has(Feature::AOVS) || features.has(Feature::FAR_PLANE);
 }
 
+std::uint32_t conePlanesFor(const SceneFeatures& features) {
+  return features.has(Feature::TEXTURE_LEVELS) ? CONE_PLANES : 0;
+}
+
 std::uint32_t rayPlanesFor(const SceneFeatures& features) {
-  if (features.has(Feature::STRAIGHT)) return RAY_PLANES_STRAIGHT;
-  return features.has(Feature::IMPULSES) ? RAY_PLANES : EYE_RAY_PLANES;
+  if (features.has(Feature::STRAIGHT)) return RAY_PLANES_STRAIGHT + conePlanesFor(features);
+  return features.has(Feature::IMPULSES) ? RAY_PLANES + conePlanesFor(features) : EYE_RAY_PLANES;
 }
 
 std::uint32_t hitPlanesFor(const SceneFeatures& features) {
@@ -40,6 +44,7 @@ RayQueues::RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacit
       segmentLimit_(asked.features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity),
       rayPlanes_(rayPlanesFor(asked.features)),
       hitPlanes_(hitPlanesFor(asked.features)),
+      impulsePlanes_(IMPULSE_PLANES + conePlanesFor(asked.features)),
       radiancePlanes_(asked.features.has(Feature::COVERAGE) ? RADIANCE_PLANES_COVERAGE : RADIANCE_PLANES) {
   // A packet reads up to fifteen entries past its segment (into the next plane, or the padding) and ignores
   // them. It writes whole packets from entry 0, which stay inside a plane because the capacity is a multiple.
@@ -54,7 +59,7 @@ RayQueues::RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacit
   if (shadowRays) shadows = planes("shadows", SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
   const std::size_t impulsesOfHit = asked.features.has(Feature::BOTH_BRANCHES) ? 2 : 1;
   if (impulseRays)
-    impulses = planes("impulses", impulsesOfHit * IMPULSE_PLANES),
+    impulses = planes("impulses", impulsesOfHit * impulsePlanes_),
     entryRadiance = planes("entryRadiance", radiancePlanes_);
   if (shadowRays || impulseRays) {
     flags = compute.allocate("flags", std::size_t{capacity} + QUEUE_PADDING);

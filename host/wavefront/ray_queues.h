@@ -22,7 +22,8 @@ struct Segment {
 inline constexpr std::uint64_t kQueueFeatures =
     bitOf(Feature::TEXTURES) | bitOf(Feature::ABSORPTION) | bitOf(Feature::AOVS) | bitOf(Feature::FAR_PLANE) |
     bitOf(Feature::STRAIGHT) | bitOf(Feature::IMPULSES) | bitOf(Feature::BOTH_BRANCHES) |
-    bitOf(Feature::COVERAGE) | bitOf(Feature::SHADOWS) | bitOf(Feature::COST);
+    bitOf(Feature::COVERAGE) | bitOf(Feature::SHADOWS) | bitOf(Feature::COST) |
+    bitOf(Feature::TEXTURE_LEVELS);
 
 class RayQueues {
  public:
@@ -35,6 +36,8 @@ class RayQueues {
   std::uint32_t segmentLimit() const { return segmentLimit_; }
   /// Without distances where nothing asks for them.
   std::uint32_t hitPlanes() const { return hitPlanes_; }
+  /// Of one impulse candidate; with cones where textures are filtered.
+  std::uint32_t impulsePlanes() const { return impulsePlanes_; }
   /// Flags take none where nothing is found that has to be compacted.
   EntryBytes entryBytes() const {
     return {hitPlanes_ * sizeof(float), radiancePlanes_ * sizeof(float), rayPlanes_ > RAY_SLOT};
@@ -68,6 +71,7 @@ class RayQueues {
   std::uint32_t segmentLimit_;
   std::uint32_t rayPlanes_;  ///< of a ray queue
   std::uint32_t hitPlanes_;
+  std::uint32_t impulsePlanes_;
   std::uint32_t radiancePlanes_;
   std::vector<Buffer> free_;
   std::uint64_t queuesMade_ = 0;

@@ -71,7 +71,7 @@ void RayRecorder::readImpulses(std::uint32_t count, std::uint32_t bounce) {
     for (std::uint32_t k = 0; k < sets; ++k) {
       if (flags_[i] & (ENTRY_ENDED0 << k)) {
         const float share =
-            reader_.plane<float>(queues_.impulses, k * IMPULSE_PLANES + IMPULSE_THROUGHPUT, i, 1)[0];
+            reader_.plane<float>(queues_.impulses, k * queues_.impulsePlanes() + IMPULSE_THROUGHPUT, i, 1)[0];
         of(i).ended.push_back({static_cast<double>(std::abs(share)), share < 0.0F});
       }
       if (!(flags_[i] & (ENTRY_IMPULSE0 << k))) continue;

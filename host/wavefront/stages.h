@@ -148,8 +148,8 @@ struct Shade {
     return count * (kRay + e.hit + e.radiance + (throughputs ? kRgb : 0) + kFlags);
   }
   /// Candidates come on top.
-  static constexpr Bytes bytesOf(Bytes shadowRays, Bytes impulses) {
-    return (shadowRays * SHADOW_PLANES + impulses * IMPULSE_PLANES) * kPlane;
+  static constexpr Bytes bytesOf(Bytes shadowRays, Bytes impulses, Bytes impulsePlanes) {
+    return (shadowRays * SHADOW_PLANES + impulses * impulsePlanes) * kPlane;
   }
 };
 
@@ -255,7 +255,9 @@ struct CompactImpulse {
   Count items() const { return count; }
   Bytes bytes(const EntryBytes&) const { return count * kFlags; }
   /// On top: candidates and slots read, whole rays written.
-  static constexpr Bytes bytesOf(Bytes found) { return found * (IMPULSE_PLANES + 1 + RAY_PLANES) * kPlane; }
+  static constexpr Bytes bytesOf(Bytes found, Bytes impulsePlanes) {
+    return 2 * found * (impulsePlanes + 1) * kPlane;
+  }
 };
 
 struct Accumulate {

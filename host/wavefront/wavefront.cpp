@@ -97,7 +97,8 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
   intersect(queue, segment, bounce);
   shade(queue, segment, bounce);
   const Candidates found = countCandidates(segment, mayEnd(bounce));
-  stages_.addBytes<stages::Shade>(stages::Shade::bytesOf(found.shadow, found.impulse));
+  stages_.addBytes<stages::Shade>(
+      stages::Shade::bytesOf(found.shadow, found.impulse, queues_.impulsePlanes()));
   for (std::size_t kind = 0; kind < found.ended.size(); ++kind) tally_.ended[kind] += found.ended[kind];
   const ObservedSegment observed{queue, segment, bounce, *radiance_, *pixelOrder_, batch_};
   if (observer_) observer_->shaded(observed, 0);
@@ -106,7 +107,7 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
   for (std::uint32_t light = 1; light < setup_.scene.lightCount; ++light) {
     shadeLight(queue, segment, bounce, light);
     const Candidates lit = countCandidates(segment, false);
-    stages_.addBytes<stages::ShadeLight>(stages::Shade::bytesOf(lit.shadow, 0));
+    stages_.addBytes<stages::ShadeLight>(stages::Shade::bytesOf(lit.shadow, 0, 0));
     if (observer_) observer_->shaded(observed, light);
     occlude(compactShadow(segment, lit.shadow));
     if (observer_) observer_->lit(observed, light);
@@ -241,7 +242,7 @@ std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, st
                                      .rays = queue,
                                      .hits = queues_.hits,
                                      .next = next},
-              stages::CompactImpulse::bytesOf(found));
+              stages::CompactImpulse::bytesOf(found, queues_.impulsePlanes()));
   tally_.impulse += found;
   tally_.produced += found;
   return found;

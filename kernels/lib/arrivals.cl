@@ -1,5 +1,7 @@
 // The rays of LANES neighbouring entries with what they hit, as shading reads them from their queues.
+#include "lib/impulses.cl"
 #include "lib/lanes.cl"
+#include "lib/surface/footprint.cl"
 
 /// The rays of LANES neighbouring entries and what they hit.
 typedef struct {
@@ -7,6 +9,9 @@ typedef struct {
   Real t, b1, b2;
   Natural triangle;  // where nothing is hit, one that another lane hits
   Mask hit;
+#if HAS(TEXTURE_LEVELS)
+  Cone cone;
+#endif
 #if HAS(STRAIGHT)
   Real passed;           // distance up to which the ray has gone straight on, 0: not yet
   Mask bounces, goesOn;  // may still do so: be reflected or refracted, go straight on
@@ -74,6 +79,55 @@ INLINE void endAtFarPlane(const RenderConstants* constants, __global const float
   a->hit = a->hit & !((depth > constants->zfar) & comeFromEye(rays, entry, capacity, bounce));
 }
 #endif
+
+#if HAS(TEXTURE_LEVELS)
+/// The cones of the rays. Eye rays have the solid angle of their pixel, sample n that over n + 1: so the mean of any
+/// number of them is filtered the less the more they are, and what a sample brings does not depend on that number.
+INLINE void loadCones(const RenderConstants* constants, const Batch* batch, __global const float* rays, uint entry,
+                      uint capacity, uint bounce, Arrivals* a) {
+  if (bounce > 1) {
+    a->cone.width = LOAD(rays + (size_t)(RAY_CONE + CONE_WIDTH) * capacity + entry);
+    a->cone.spread = LOAD(rays + (size_t)(RAY_CONE + CONE_SPREAD) * capacity + entry);
+    return;
+  }
+  // The entries are the samples.
+  float samples[LANES];
+  for (uint k = 0; k < LANES; ++k) samples[k] = (float)(batch->firstSample + (entry + k) % batch->samples + 1u);
+  const Real share = 1.0f / sqrt(LOAD(samples));
+  const Real along = dot3(a->d, real3(constants->forward[0], constants->forward[1], constants->forward[2]));
+  const Real cosine = along > 0.0f ? along : (Real)(0.0f);
+  a->cone.width = share * constants->coneWidth;
+  a->cone.spread = share * constants->coneSpread * cosine * sqrt(cosine);
+}
+#endif
+
+/// Entry i and its neighbours of a segment that begins at `first` and has `count`, with all that shading asks of them.
+/// lastBounce: for what their impulses may do; 0 where nobody asks.
+INLINE Arrivals arrivalsOf(const RenderConstants* constants, const Batch* batch, __global const float* rays,
+                           __global const float* hits, uint first, uint count, uint capacity, uint bounce,
+                           uint lastBounce, uint i) {
+  Arrivals a = loadArrivals(rays, hits, first, count, capacity, i);
+#if HAS(STRAIGHT)
+  loadSteps(rays, first + i, capacity, bounce, lastBounce, constants->transparentBounces, &a);
+#endif
+#if HAS(FAR_PLANE)
+  endAtFarPlane(constants, rays, first + i, capacity, bounce, &a);
+#endif
+#if HAS(TEXTURE_LEVELS)
+  loadCones(constants, batch, rays, first + i, capacity, bounce, &a);
+#endif
+  return a;
+}
+
+/// What the rays stand for where they hit.
+INLINE Footprint footprintOf(const RenderConstants* constants, const Arrivals* a) {
+#if HAS(TEXTURE_LEVELS)
+  const Footprint footprint = {fabs(a->cone.width + a->cone.spread * a->t), constants->textureProbes};
+  return footprint;
+#else
+  return noFootprint();
+#endif
+}
 
 /// How far the rays came since they last met something.
 INLINE Real distanceInside(const Arrivals* a) {

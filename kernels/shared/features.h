@@ -63,6 +63,7 @@
 #define BIT_LENS 54                        // thin lens
 #define BIT_GLOSS 55                       // glossy impulses
 #define BIT_SURFACE_LIGHTS 56              // surface lights
+#define BIT_TEXTURE_LEVELS 57              // texture levels
 #define BIT_SKY_LIGHTS 60                  // sky lights
 #define BIT_TERMINATOR 61                  // smooth terminator
 
@@ -80,6 +81,7 @@
 #define COMPACT_CHUNK 1024  // entries that one work item of the compaction walks: many on a CPU, few on a GPU
 #endif
 
+#define TEXTURE_PROBES 4   // lookups side by side along a footprint, at most
 #define LONG_RUN 256       // a sample with more entries than this in one queue is cut into slices of this length
 #define PACKET_RAYS 16     // rays of a packet, with PACKETS; one for each work item without
 #define ENTRY_LANES 8      // entries that a work item of the other stages handles, likewise

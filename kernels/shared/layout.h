@@ -81,6 +81,7 @@ WHITTLE_STRUCT(DeviceTexture) {
   uint wrapT;
   uint flags;  // TEXTURE_…
   uint uvSet;
+  uint levels;  // 1: this one alone; else each smaller one lies behind the one that it is made of
 };
 
 // Light types: LIGHT_POINT, LIGHT_DIRECTIONAL, LIGHT_SPOT, …
@@ -175,6 +176,11 @@ WHITTLE_STRUCT(RenderConstants) {
   uint sampler;  // as in DeviceCamera
   uint raysPerPixel;
   uint glossy;  // 1: rough surfaces send out impulses, with GLOSS
+  // With TEXTURE_LEVELS the cone of a pixel's eye rays: its width, m (of a pinhole 0), and how fast it grows along the
+  // camera's axis; and the most lookups along a footprint.
+  float coneWidth;
+  float coneSpread;
+  uint textureProbes;
 };
 
 // The samples of one batch: pixels [firstPixel, firstPixel + pixels) of the pixel order, times samples
@@ -217,6 +223,13 @@ WHITTLE_STRUCT(Batch) {
 // this share of the picture, which few can.
 #define BRANCH_SHARE 0.125f
 
+// With TEXTURE_LEVELS and IMPULSES, behind all of those (eye rays: not written, it follows from the camera), and in
+// the same order behind the planes of each impulse candidate: the ray's cone, its width at the origin (m) and how much
+// wider it is with each metre, negative where it narrows.
+#define CONE_WIDTH 0
+#define CONE_SPREAD 1
+#define CONE_PLANES 2
+
 // Hits: triangle in leaf order (uint bits, NO_HIT), barycentrics b1, b2, distance (m). Only TEXTURES,
 // ABSORPTION and AOVS ask how far away a hit is; without them the queue ends before that.
 #define HIT_TRIANGLE 0
@@ -246,8 +259,9 @@ WHITTLE_STRUCT(Batch) {
 #define SHADOW_PLANES 10
 
 // Impulse candidates, two for each ray entry (plane + k * IMPULSE_PLANES), or one where no surface sends out
-// two: origin, direction, throughput. Of one that is not followed (ENTRY_ENDED0) only the first plane of the
-// throughput is written: its largest channel, negative where --cutoff ended it.
+// two: origin, direction, throughput; with TEXTURE_LEVELS each set is longer by CONE_PLANES. Of one that is not
+// followed (ENTRY_ENDED0) only the first plane of the throughput is written: its largest channel, negative where
+// --cutoff ended it.
 #define IMPULSE_O 0
 #define IMPULSE_D 3
 #define IMPULSE_THROUGHPUT 6

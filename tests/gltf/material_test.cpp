@@ -158,6 +158,19 @@ TEST(GltfMaterial, SlotsAndSamplers) {
   EXPECT_TRUE(scene.tangents.empty());
 }
 
+/// Only who wants texels where a texture is seen small gets them.
+TEST(GltfMaterial, SamplersThatWantTexelsHaveNoLevels) {
+  for (const auto& [code, hasLevels] :
+       {std::pair{9728, false}, {9729, true}, {9984, true}, {9986, true}, {9987, true}}) {
+    GltfBuilder b = textured({{"emissiveTexture", {{"index", 0}}}, {"normalTexture", {{"index", 1}}}});
+    b.push("samplers", {{"minFilter", code}});
+    b.push("textures", {{"source", 0}, {"sampler", 0}});
+    const Material m = b.load().materials.at(0);
+    EXPECT_TRUE(m.emissionTexture.hasLevels) << "no sampler";
+    EXPECT_EQ(m.normalTexture.hasLevels, hasLevels) << code;
+  }
+}
+
 TEST(GltfMaterial, TextureTransform) {
   const double quarter = std::numbers::pi / 2;
   GltfBuilder b = textured(

@@ -114,6 +114,24 @@ TEST(GltfMemory, ThePixelsOfAllImagesAreSummedBeforeOneIsDecoded) {
   EXPECT_EQ(b.notices.warnings.size(), 20U) << "none of them can be decoded";
 }
 
+/// A third more, once everything is loaded.
+TEST(GltfMemory, SmallerLevelsOfImagesAreSummedToo) {
+  GltfBuilder b;
+  std::vector<Json> images;
+  for (int i = 0; i < 20; ++i) images.push_back({{"bufferView", viewOf(b, pngHeader(1000, 1000))}});
+  showImages(b, images);
+  const auto limit = MemoryLimit{kProgramBytes + 100'000'000, true};
+  MemoryBudget enough(limit), tooLittle(limit);
+  LoadOptions options;
+  options.memory = &enough;
+  b.load(options);
+  options.memory = &tooLittle;
+  options.laterTextureLevels = true;
+  const std::string refused = b.error(options);
+  EXPECT_NE(refused.find("the smaller levels of its images would take 26.7 MB"), std::string::npos)
+      << refused;
+}
+
 TEST(GltfMemory, InstancesWithoutDataAreCounted) {
   GltfBuilder b;
   const int million = b.accessor(-1, "VEC3", test::kFloat, 1'000'000);

@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::uint32_t kCapacity =
     4160;  // entries a queue has room for; of every chunk here none divides it but 1 and 32
+/// With all features.
+constexpr std::uint32_t kRayPlanes = RAY_PLANES_STRAIGHT + CONE_PLANES,
+                        kImpulsePlanes = IMPULSE_PLANES + CONE_PLANES;
 constexpr std::uint32_t kUntouched = 0xdeadbeefU;
 
 enum class Pattern { None, All, Random, OnlyLast };
@@ -58,7 +61,7 @@ class Compaction {
     const Buffer from = bench.compute.upload("impulses", impulses),
                  queue = bench.compute.upload("rays", rays);
     const Buffer next =
-        bench.compute.upload("next", std::vector<std::uint32_t>(RAY_PLANES_STRAIGHT * kCapacity, kUntouched));
+        bench.compute.upload("next", std::vector<std::uint32_t>(kRayPlanes * kCapacity, kUntouched));
     scan(f, count, 1);
     bench.stages.run(stages::CompactImpulse{.first = first,
                                             .count = count,
@@ -70,7 +73,7 @@ class Compaction {
                                             .rays = queue,
                                             .hits = bench.compute.upload("hits", hits),
                                             .next = next});
-    return bench.read<std::uint32_t>(next, RAY_PLANES_STRAIGHT * kCapacity);
+    return bench.read<std::uint32_t>(next, kRayPlanes * kCapacity);
   }
 
   EndedUnits ended(const std::vector<std::uint32_t>& flags, const std::vector<float>& impulses,
@@ -129,21 +132,24 @@ void checkShadow(Compaction& compaction, Pattern pattern, std::uint32_t count) {
 }
 
 void checkImpulse(Compaction& compaction, Pattern pattern, std::uint32_t count) {
-  static const auto impulses = distinctWords(2 * IMPULSE_PLANES * kCapacity, 1U << 20);
-  static const auto rays = distinctWords(RAY_PLANES_STRAIGHT * kCapacity, 1U << 24);
+  static const auto impulses = distinctWords(2 * kImpulsePlanes * kCapacity, 1U << 20);
+  static const auto rays = distinctWords(kRayPlanes * kCapacity, 1U << 24);
   static const auto hits = distinctWords(HIT_PLANES_STRAIGHT * kCapacity, 1U << 23);
   const std::uint32_t fitting =
       std::min(count, kCapacity / 2);  // two of each must fit, as the wavefront's segments see to
   const std::uint32_t first = kCapacity - fitting;
   const auto flags = makeFlags(pattern, fitting);
-  std::vector<std::uint32_t> expected(RAY_PLANES_STRAIGHT * kCapacity, kUntouched);
+  std::vector<std::uint32_t> expected(kRayPlanes * kCapacity, kUntouched);
   std::uint32_t out = 0;
   for (std::uint32_t i = 0; i < fitting; ++i) {
     for (std::uint32_t k = 0; k < 2; ++k) {
       if (!(flags[i] & (k == 0 ? ENTRY_IMPULSE0 : ENTRY_IMPULSE1))) continue;
       for (std::uint32_t plane = 0; plane < IMPULSE_PLANES;
            ++plane)  // origin, direction, throughput: planes alike in both queues
-        expected[plane * kCapacity + out] = impulses[(k * IMPULSE_PLANES + plane) * kCapacity + i];
+        expected[plane * kCapacity + out] = impulses[(k * kImpulsePlanes + plane) * kCapacity + i];
+      for (std::uint32_t plane = 0; plane < CONE_PLANES; ++plane)
+        expected[(RAY_PLANES_STRAIGHT + plane) * kCapacity + out] =
+            impulses[(k * kImpulsePlanes + IMPULSE_PLANES + plane) * kCapacity + i];
       expected[RAY_SLOT * kCapacity + out] = rays[RAY_SLOT * kCapacity + first + i];
       const bool straight = flags[i] & (k == 0 ? ENTRY_STRAIGHT0 : ENTRY_STRAIGHT1);
       const std::uint32_t steps = rays[RAY_STEPS * kCapacity + first + i];
@@ -188,7 +194,7 @@ TEST(Compact, SumsWhatEndedWhateverTheChunk) {
       SCOPED_TRACE(fmt::format("chunk {}, {} entries", chunk, count));
       test::Rng rng(count);
       const auto flags = makeFlags(Pattern::Random, count);
-      std::vector<float> impulses(2 * IMPULSE_PLANES * kCapacity, NAN);
+      std::vector<float> impulses(2 * kImpulsePlanes * kCapacity, NAN);
       EndedUnits expected{};
       for (std::uint32_t i = 0; i < count; ++i)
         for (std::uint32_t k = 0; k < 2; ++k) {
@@ -196,7 +202,7 @@ TEST(Compact, SumsWhatEndedWhateverTheChunk) {
           const std::uint64_t millionths = rng.bits() % (std::uint64_t{1} << 20);
           const bool huge = i % 5 == 0, cutOff = rng.unit() < 0.4F;
           const float share = huge ? 3e9F : static_cast<float>(millionths) * 0x1p-20F;
-          impulses[(k * IMPULSE_PLANES + IMPULSE_THROUGHPUT) * kCapacity + i] = cutOff ? -share : share;
+          impulses[(k * kImpulsePlanes + IMPULSE_THROUGHPUT) * kCapacity + i] = cutOff ? -share : share;
           const bool straight = flags[i] & (ENTRY_STRAIGHT0 << k);
           // -0 is not below 0: what carries nothing is never written there.
           const std::size_t kind =
@@ -211,7 +217,7 @@ TEST(Compact, SumsWhatEndedWhateverTheChunk) {
 TEST(FindLongRuns, ReportsASampleLongerThanTheLimit) {
   Compaction compaction(1024);
   const auto reported = [&](std::uint32_t runBegin, std::uint32_t runLength, std::uint32_t count) {
-    auto rays = distinctWords(RAY_PLANES_STRAIGHT * kCapacity, 0);
+    auto rays = distinctWords(kRayPlanes * kCapacity, 0);
     for (std::uint32_t i = 0; i < runLength; ++i) rays[RAY_SLOT * kCapacity + runBegin + i] = 7;
     const Buffer counters =
         compaction.bench.compute.upload("counters", std::vector<std::uint32_t>(COUNTERS, 0));

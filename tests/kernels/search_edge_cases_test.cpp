@@ -57,7 +57,7 @@ __kernel void spawn_points(uint n, SCENE_PARAMS, __global const uint* at, __glob
   RenderConstants constants;
   constants.rayOffset = -1.0f;
   const Surfel s = surfelAt(&scene, (Natural)(at[i]), same3((float3)(0.0f)), same3(vload3(i, d)), (Real)(0.0f),
-                            (Real)(b[2 * i]), (Real)(b[2 * i + 1]));
+                            (Real)(b[2 * i]), (Real)(b[2 * i + 1]), noFootprint());
   vstore3(firstOf(offsetOrigin(&constants, &s, s.n_g)), i, out + 0);
   vstore3(firstOf(offsetOrigin(&constants, &s, minus3(s.n_g))), i, out + 3 * n);
   vstore3(firstOf(s.n_g), i, out + 6 * n);

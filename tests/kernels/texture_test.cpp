@@ -125,7 +125,7 @@ TEST(Texture, WrapModesAndFiltersAgreeWithTheTwin) {
   for (const auto& [width, height] : {std::pair{1, 1}, {2, 3}, {5, 4}, {16, 1}}) {
     const Picture p = randomPicture(width, height, rng);
     for (std::uint32_t mode = 0; mode < 18; ++mode) {
-      device::DeviceTexture t{{1, 0, 0, 0, 1, 0}, 7, width, height, mode % 3, mode / 3 % 3, mode / 9, 1};
+      device::DeviceTexture t{{1, 0, 0, 0, 1, 0}, 7, width, height, mode % 3, mode / 3 % 3, mode / 9, 1, 1};
       const bool srgb = mode % 2;
       SCOPED_TRACE(fmt::format("{}×{} wrap {} {} nearest {}", width, height, t.wrapS, t.wrapT, t.flags));
       std::vector<float> uv;
@@ -162,7 +162,7 @@ TEST(Texture, OddCoordinatesReadTheFirstTexelOrTheBorderAndNothingElse) {
   const Picture p = randomPicture(3, 2, rng);
   const float nan = std::nanf("");
   for (std::uint32_t mode = 0; mode < 6; ++mode) {
-    device::DeviceTexture t{{1, 0, 0, 0, 1, 0}, 5, 3, 2, mode % 3, mode % 3, mode / 3, 1};
+    device::DeviceTexture t{{1, 0, 0, 0, 1, 0}, 5, 3, 2, mode % 3, mode % 3, mode / 3, 1, 1};
     const auto out = lookup(t, p, false, {nan, 0.6F, 0.6F, nan, INFINITY, 0.6F, 0.6F, -INFINITY, nan, nan});
     for (std::size_t i = 0; i < out.size(); ++i)
       EXPECT_EQ(out[i], static_cast<float>(p.texels[0][i % 4]) / 255.0F)
@@ -186,8 +186,8 @@ TEST(Texture, TransformAndUvSet) {
   TextureBench lookup;
   test::Rng rng(43);
   const Picture p = randomPicture(8, 8, rng);
-  device::DeviceTexture t{{0, 2, 0.25F, -1, 0, 0.5F}, 0, 8, 8, WRAP_REPEAT, WRAP_REPEAT, 0, 1};
-  device::DeviceTexture plain{{1, 0, 0, 0, 1, 0}, 0, 8, 8, WRAP_REPEAT, WRAP_REPEAT, 0, 1};
+  device::DeviceTexture t{{0, 2, 0.25F, -1, 0, 0.5F}, 0, 8, 8, WRAP_REPEAT, WRAP_REPEAT, 0, 1, 1};
+  device::DeviceTexture plain{{1, 0, 0, 0, 1, 0}, 0, 8, 8, WRAP_REPEAT, WRAP_REPEAT, 0, 1, 1};
   const auto turned = lookup(t, p, false, {0.125F, 0.3125F}),
              direct = lookup(plain, p, false, {0.875F, 0.375F});
   EXPECT_EQ(turned, direct) << "u' = 2v + ¼, v' = ½ − u";
@@ -203,7 +203,7 @@ TEST(Texture, SixteenBitsBesideEight) {
   const std::vector<std::uint32_t> texels{0xff804020U, 0x01020304U,  // RGBA8, red lowest
                                           0x80018000U, 0xffff0001U,
                                           0x80038004U, 0x0000fffeU};  // two texels of 16 bits: RG, BA
-  const device::DeviceTexture shallow{{1, 0, 0, 0, 1, 0}, 0, 2, 1, WRAP_CLAMP, WRAP_CLAMP, 0, 1};
+  const device::DeviceTexture shallow{{1, 0, 0, 0, 1, 0}, 0, 2, 1, WRAP_CLAMP, WRAP_CLAMP, 0, 1, 1};
   device::DeviceTexture deep = shallow;
   deep.firstTexel = 2;
   deep.flags = TEXTURE_DEEP;

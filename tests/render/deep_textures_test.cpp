@@ -52,6 +52,7 @@ Settings rowOfPixels(Lanes lanes = Lanes::Auto) {
   settings.height = 4;
   settings.aovs = true;
   settings.lanes = lanes;
+  settings.textureFilter = TextureFilter::None;  // the bytes of texels are counted
   return settings;
 }
 

@@ -99,8 +99,8 @@ TEST(PrunedPictures, MaterialsAndImagesAlike) {
   for (Triangle& t : scene.triangles) ++t.material;
   const Stats stats = expectSameBits(scene);
   EXPECT_EQ(stats.pruning.materials.kept(), 2U);
-  EXPECT_EQ(bytesOf(stats, "texels"), 8U * 8 * 4);
-  EXPECT_EQ(bytesOf(stats, "textures"), 52U) << "one slot";
+  EXPECT_EQ(bytesOf(stats, "texels"), (64U + 16 + 4 + 1) * 4) << "with its smaller levels";
+  EXPECT_EQ(bytesOf(stats, "textures"), 56U) << "one slot";
 }
 
 TEST(PrunedPictures, TexturesThatAreMultipliedByNothing) {

@@ -75,7 +75,8 @@ class Surroundings {
           Vec2(pixel % width, pixel / width) + reference::samplePosition(s.sampler, pixel, k, count, s.seed);
       reference::Ray ray = reference::eyeRay(world_.camera, at, s.width, s.height);
       ray.direction = glm::normalize(ray.direction + kMove * Vec3(rng.inBox(1)));
-      sum += reference::Li(world_, {pixel, k, rays}, ray, {}, Vec3(1));
+      sum += reference::Li(world_, {pixel, k, rays}, ray,
+                           {.cone = reference::eyeCone(world_.camera, s, ray, k)}, Vec3(1));
     }
     return sum / static_cast<double>(count);
   }

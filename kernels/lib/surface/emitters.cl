@@ -89,7 +89,7 @@ INLINE Illumination emitterIllumination(const SceneView* scene, const RenderCons
   const Mask reached = (d2 > 0.0f) & (chosen.weight > 0.0f);
   result.distance = sqrt(d2);
   result.w_i = choose3(reached, normalize3(toLight), result.w_i);
-  const Surfel s = surfelAt(scene, chosen.triangle, lit->position, result.w_i, result.distance, b1, b2);
+  const Surfel s = surfelAt(scene, chosen.triangle, lit->position, result.w_i, result.distance, b1, b2, noFootprint());
   const Real facing = -dot3(s.n_g, result.w_i);
   const Real area = 0.5f * sqrt(dot3(seen.across, seen.across));
   const Real weight = chosen.weight * chosen.inverseDensity * (wide ? solidAngle / area : facing / d2);

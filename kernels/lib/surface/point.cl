@@ -46,10 +46,27 @@ INLINE void interpolateUvSet(__global const float* values, const Natural* corner
   uv->v[set] = interpolateUv(gather(values + 1, a), gather(values + 1, b), gather(values + 1, c), at, &uv->vLow[set]);
 }
 
+#ifdef TEXTURE_FOOTPRINTS
+/// How the coordinates change along two axes, along which b1 and b2 change so.
+INLINE void acrossUvSet(__global const float* values, const Natural* corner, const Real* b1, const Real* b2, uint set,
+                        Uv* uv) {
+  const Natural a = corner[0] * 2u, b = corner[1] * 2u, c = corner[2] * 2u;
+  for (uint n = 0; n < 2; ++n) {
+    const Real origin = gather(values + n, a);
+    const Real e1 = gather(values + n, b) - origin, e2 = gather(values + n, c) - origin;
+    for (uint axis = 0; axis < 2; ++axis) uv->across[set][2 * axis + n] = b1[axis] * e1 + b2[axis] * e2;
+  }
+}
+#endif
+
 /// Both sets of texture coordinates; 0 for a set that the scene has not.
 INLINE Uv uvAt(const SceneView* scene, const Natural* corner, const Barycentrics* at) {
   Uv uv;
   for (uint set = 0; set < 2; ++set) uv.u[set] = uv.v[set] = uv.uLow[set] = uv.vLow[set] = (Real)(0.0f);
+#ifdef TEXTURE_FOOTPRINTS
+  for (uint n = 0; n < 4; ++n) uv.across[0][n] = uv.across[1][n] = (Real)(0.0f);
+  uv.probes = 1;
+#endif
 #if HAS(UV0)
   if (scene->uv0) interpolateUvSet(scene->uv0, corner, at, 0, &uv);
 #endif

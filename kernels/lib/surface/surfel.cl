@@ -1,5 +1,6 @@
 // The surfel of a hit: what shading needs to know of the surface, evaluated from vertices, material and textures.
 // Conventions: host/reference/README.md.
+#include "lib/surface/footprint.cl"
 #include "lib/surface/material.cl"
 
 typedef struct {
@@ -22,6 +23,9 @@ typedef struct {
 #if HAS(TERMINATOR)
   Mask curved;  // the normals mean another surface than the triangle's plane
   Real3 lift;   // from the position to that surface, m
+#endif
+#ifdef TEXTURE_FOOTPRINTS
+  Real bend;  // half the divergence of the vertex normals, seen from the viewer's side, 1/m
 #endif
 } Surfel;
 
@@ -111,6 +115,38 @@ INLINE void liftSurfel(const TrianglePoint* at, const CornerNormals* corners, Re
 }
 #endif
 
+#ifdef TEXTURE_FOOTPRINTS
+/// The footprint in texture coordinates: a ray moved sideways by a vector meets the triangle's plane where b1 and b2
+/// are other by its products with two vectors across the ray.
+INLINE void addFootprint(const SceneView* scene, const TrianglePoint* at, Real3 d, const Footprint* footprint, Uv* uv) {
+  const Real3 e1 = sub3(at->p1, at->p0), e2 = sub3(at->p2, at->p0);
+  const Real3 across1 = cross3(e2, d), across2 = cross3(d, e1);
+  const Real scale = footprint->width / dot3(e1, across1);
+  Real3 axis[2];
+  Real b1[2], b2[2];
+  basisAbout(d, axis, axis + 1);
+  for (uint n = 0; n < 2; ++n) b1[n] = scale * dot3(axis[n], across1), b2[n] = scale * dot3(axis[n], across2);
+#if HAS(UV0)
+  if (scene->uv0) acrossUvSet(scene->uv0, at->corner, b1, b2, 0, uv);
+#endif
+#if HAS(UV1)
+  if (scene->uv1) acrossUvSet(scene->uv1, at->corner, b1, b2, 1, uv);
+#endif
+  uv->probes = footprint->probes;
+}
+
+#if HAS(VERTEX_NORMALS) && HAS(IMPULSES)
+/// Half the divergence over the triangle of the interpolated vertex normals, 1/m; 0 where a corner has none.
+INLINE Real bendOf(const TrianglePoint* at, const CornerNormals* n, Real3 n_g) {
+  const Real3 e1 = sub3(at->p1, at->p0), e2 = sub3(at->p2, at->p0);
+  const Real3 across1 = cross3(e2, n_g), across2 = cross3(n_g, e1);
+  const Real turn = dot3(sub3(n->b, n->a), across1) + dot3(sub3(n->c, n->a), across2);
+  const Real bend = 0.5f * turn / dot3(e1, across1);
+  return !n->missing & isfinite(bend) ? bend : (Real)(0.0f);
+}
+#endif
+#endif
+
 #if HAS(TEXTURES) && HAS(NORMAL_TEXTURE)
 /// n tilted by the normal map; n itself where there is none or no tangent to lay it along.
 INLINE Real3 mappedNormal(const SceneView* scene, const TrianglePoint* at, Real3 n) {
@@ -180,7 +216,8 @@ INLINE void materialAt(const SceneView* scene, const TrianglePoint* at, Surfel* 
 }
 
 /// The surfel at the hit (triangle, t, b1, b2) of the ray o + t d.
-INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, Real3 d, Real t, Real b1, Real b2) {
+INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, Real3 d, Real t, Real b1, Real b2,
+                       Footprint footprint) {
   Surfel s;
   const Barycentrics found = barycentrics(b1, b2);
   TrianglePoint at = trianglePoint(scene, triangleIndex, &found);
@@ -189,6 +226,9 @@ INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, R
   // For texture coordinates alone: what no texture shows keeps its bits whether this is compiled or not.
   const Barycentrics refined = refinedBarycentrics(p0, p1, p2, o, d, t, found);
   at.uv = uvAt(scene, at.corner, &refined);
+#ifdef TEXTURE_FOOTPRINTS
+  addFootprint(scene, &at, d, &footprint, &at.uv);
+#endif
 #else
   at.uv = uvAt(scene, at.corner, &found);
 #endif
@@ -202,10 +242,17 @@ INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, R
   s.curved = (Mask)(0);
   s.lift = same3((float3)(0.0f));
 #endif
+#ifdef TEXTURE_FOOTPRINTS
+  s.bend = (Real)(0.0f);
+#endif
 #if HAS(VERTEX_NORMALS)
   if (scene->normals) {
     const CornerNormals corners = cornerNormals(scene, &at);
     n = vertexNormalAt(&at, &corners, n_g);
+#if defined(TEXTURE_FOOTPRINTS) && HAS(IMPULSES)
+    const Real bend = bendOf(&at, &corners, n_g);
+    s.bend = s.front ? bend : -bend;
+#endif
 #if HAS(TERMINATOR)
     liftSurfel(&at, &corners, n_g, &s);
 #endif

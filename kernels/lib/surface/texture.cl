@@ -1,5 +1,7 @@
-// Texture lookups: level 0, bilinear or nearest, wrap modes, sRGB decoded for each texel before filtering. Slots of
-// linear values may have 16 bits for each channel. The loads of all lanes are under way at once.
+// Texture lookups: bilinear or nearest, wrap modes, sRGB decoded for each texel before filtering. Slots of linear
+// values may have 16 bits for each channel. The loads of all lanes are under way at once. In programs that know
+// footprints (footprint.cl) a lookup is the mean over one: between two levels, and some side by side along it
+// (McCormack et al., "Feline", 1999); where no side of it is longer than a texel it has the bits of a lookup without.
 #include "lib/lanes.cl"
 #include "lib/scene.cl"
 
@@ -7,6 +9,10 @@
 /// bit is a good part of a texel.
 typedef struct {
   Real u[2], v[2], uLow[2], vLow[2];
+#ifdef TEXTURE_FOOTPRINTS
+  Real across[2][4];  // of each set how u and v change along one axis of the footprint, then along the other
+  uint probes;
+#endif
 } Uv;
 
 /// Reduces u + low to [0, 1] by its wrap mode; to within the size of low.
@@ -53,9 +59,15 @@ INLINE Rgba chooseDeep(Mask deep, Natural rg, Natural ba, Rgba t) {
 }
 #endif
 
-INLINE Rgba fetchTexel(const SceneView* scene, const Records* texture, Mask x, Mask y, int srgb) {
-  const Natural first = FIELD_BITS(texture, DeviceTexture, firstTexel),
-                width = FIELD_BITS(texture, DeviceTexture, width);
+/// The texels of one level, and how they go on beyond its edges.
+typedef struct {
+  Natural first;  // word
+  Mask width, height;
+  Natural wrapS, wrapT;
+} Level;
+
+INLINE Rgba fetchTexel(const SceneView* scene, const Records* texture, const Level* level, Mask x, Mask y, int srgb) {
+  const Natural first = level->first, width = AS_NATURAL(level->width);
 #if HAS(DEEP_TEXTURES)
   const Mask deep = (FIELD_BITS(texture, DeviceTexture, flags) & TEXTURE_DEEP) != 0;
   const Natural texel = AS_NATURAL(y) * width + AS_NATURAL(x), at = first + (deep ? texel * 2u : texel);
@@ -81,16 +93,19 @@ INLINE Rgba chooseRgba(Mask m, Rgba a, Rgba b) {
   return a;
 }
 
-/// The four texels around (u, v), which counts texels.
-INLINE Rgba blendTexels(const SceneView* scene, const Records* texture, Real u, Real v, Mask width, Mask height,
-                        Natural wrapS, Natural wrapT, int srgb) {
-  const Real x = u - 0.5f, y = v - 0.5f;
+/// The four texels around (s, t), in [0, 1].
+INLINE Rgba blendTexels(const SceneView* scene, const Records* texture, const Level* level, Real s, Real t, int srgb) {
+  const Real x = s * TO_REAL(level->width) - 0.5f, y = t * TO_REAL(level->height) - 0.5f;
   const Real fx = floor(x), fy = floor(y);
   const Real wx = x - fx, wy = y - fy;
-  const Mask x0 = wrapTexel(TO_WHOLE(fx), width, wrapS), x1 = wrapTexel(TO_WHOLE(fx) + 1, width, wrapS);
-  const Mask y0 = wrapTexel(TO_WHOLE(fy), height, wrapT), y1 = wrapTexel(TO_WHOLE(fy) + 1, height, wrapT);
-  const Rgba t00 = fetchTexel(scene, texture, x0, y0, srgb), t10 = fetchTexel(scene, texture, x1, y0, srgb);
-  const Rgba t01 = fetchTexel(scene, texture, x0, y1, srgb), t11 = fetchTexel(scene, texture, x1, y1, srgb);
+  const Mask x0 = wrapTexel(TO_WHOLE(fx), level->width, level->wrapS),
+             x1 = wrapTexel(TO_WHOLE(fx) + 1, level->width, level->wrapS);
+  const Mask y0 = wrapTexel(TO_WHOLE(fy), level->height, level->wrapT),
+             y1 = wrapTexel(TO_WHOLE(fy) + 1, level->height, level->wrapT);
+  const Rgba t00 = fetchTexel(scene, texture, level, x0, y0, srgb),
+             t10 = fetchTexel(scene, texture, level, x1, y0, srgb);
+  const Rgba t01 = fetchTexel(scene, texture, level, x0, y1, srgb),
+             t11 = fetchTexel(scene, texture, level, x1, y1, srgb);
   Rgba result;
   for (uint n = 0; n < 4; ++n) {
     const Real top = t00.c[n] * (1.0f - wx) + t10.c[n] * wx;
@@ -99,6 +114,107 @@ INLINE Rgba blendTexels(const SceneView* scene, const Records* texture, Real u, 
   }
   return result;
 }
+
+#ifdef TEXTURE_FOOTPRINTS
+INLINE Natural halved(Natural side) { return side > 1u ? side >> 1 : side; }
+
+/// The level behind `level`, where asked.
+INLINE Level nextLevel(const Records* texture, const Level* level, Mask asked) {
+  Natural words = AS_NATURAL(level->width) * AS_NATURAL(level->height);
+#if HAS(DEEP_TEXTURES)
+  words = (FIELD_BITS(texture, DeviceTexture, flags) & TEXTURE_DEEP) != 0 ? words * 2u : words;
+#endif
+  Level next = *level;
+  next.first = asked ? level->first + words : level->first;
+  next.width = asked ? TO_SIGNED(halved(AS_NATURAL(level->width))) : level->width;
+  next.height = asked ? TO_SIGNED(halved(AS_NATURAL(level->height))) : level->height;
+  return next;
+}
+
+/// Level k of a texture whose largest is `level`.
+INLINE Level levelAt(const Records* texture, Level level, Natural k) {
+  for (uint n = 0; some(k > n); ++n) level = nextLevel(texture, &level, k > n);
+  return level;
+}
+
+/// Where in a texture a footprint lies: level k and, `between` of the way, the next smaller one; so many lookups, one
+/// (stepU, stepV) behind the other, in texture coordinates.
+typedef struct {
+  Natural k, probes;
+  Real between, stepU, stepV;
+} Strip;
+
+// A lookup blends over two texels, so that a row of them, one and a half apart, leaves nothing out.
+#define PROBE_DISTANCE 1.5f
+
+/// Of a footprint by its two axes: u and v along the first, then along the second, in texture coordinates of a texture
+/// of so many levels. In texels it is an ellipse; as wide as that is short are the lookups, and as long as it is long
+/// is their row (none is smaller than a texel). A level is chosen by that width w: between 2^k and 2^(k+1) texels it is
+/// w/2^k - 1 of the way from level k to the next.
+INLINE Strip stripOf(const Real* across, uint mostProbes, Natural levels, const Level* level) {
+  Strip strip = {(Natural)(0), (Natural)(1), (Real)(0.0f), (Real)(0.0f), (Real)(0.0f)};
+  const Real width = TO_REAL(level->width), height = TO_REAL(level->height);
+  const Real u1 = across[0] * width, v1 = across[1] * height, u2 = across[2] * width, v2 = across[3] * height;
+  const Real uu = u1 * u1 + u2 * u2, vv = v1 * v1 + v2 * v2, uv = u1 * v1 + u2 * v2;
+  const Real apart = 0.5f * (uu - vv), root = sqrt(apart * apart + uv * uv);
+  const Real longest = sqrt(0.5f * (uu + vv) + root);
+  const Mask filtered = (levels > 1u) & (longest > 1.0f);  // not a number: not filtered
+  if (!some(filtered)) return strip;
+  const Real length = filtered ? (longest < 65536.0f ? longest : (Real)(65536.0f)) : (Real)(1.0f);
+  const Real shortest = fabs(u1 * v2 - u2 * v1) / longest;
+  const Real least = mostProbes > 1u ? length / (PROBE_DISTANCE * (float)mostProbes) : length;
+  Real w = shortest > least ? shortest : least;
+  w = w > 1.0f ? w : (Real)(1.0f);
+  w = w < length ? w : length;
+  // What rounding adds to a whole number is no further one.
+  const Real count = length / (PROBE_DISTANCE * w) - 1e-4f;
+  for (uint n = 1; n < mostProbes; ++n) strip.probes = count > (float)n ? (Natural)(n + 1) : strip.probes;
+  const Real alongU = apart >= 0.0f ? apart + root : uv, alongV = apart >= 0.0f ? uv : root - apart;
+  const Real size = sqrt(alongU * alongU + alongV * alongV);
+  const Mask isLong = filtered & (size > 0.0f) & (strip.probes > 1u);
+  const Real step = (length - w) / (TO_REAL(strip.probes) * size);
+  strip.stepU = isLong ? step * alongU / width : (Real)(0.0f);
+  strip.stepV = isLong ? step * alongV / height : (Real)(0.0f);
+  const Natural bits = AS_NATURAL(w), k = (bits >> 23) - 127u, last = levels - 1u;
+  const Mask goesOn = filtered & (k < last);
+  strip.k = goesOn ? k : (filtered ? last : (Natural)(0));
+  strip.between = goesOn ? AS_REAL((bits & 0x7fffffu) | 0x3f800000u) - 1.0f : (Real)(0.0f);
+  return strip;
+}
+
+/// The mean over the footprint about the place (u + uLow, v + vLow). Lanes whose footprint no texel is smaller than
+/// have one lookup, in the largest level. All lookups between two levels would be twice as many: of several the outer
+/// ones are in the smaller level and the inner ones in the larger one, as many as the way between them says, and one
+/// pair at most is in both.
+INLINE Rgba meanOver(const SceneView* scene, const Records* texture, const Level* level, const Strip* strip, Real u,
+                     Real uLow, Real v, Real vLow, Mask lost, int srgb) {
+  const Level larger = levelAt(texture, *level, strip->k);
+  const Level smaller = nextLevel(texture, &larger, strip->between > 0.0f);
+  const Real count = TO_REAL(strip->probes), middle = 0.5f * (count - 1.0f), inSmaller = strip->between * count;
+  Rgba sum = {{(Real)(0.0f), (Real)(0.0f), (Real)(0.0f), (Real)(0.0f)}};
+  for (uint n = 0; some(strip->probes > n); ++n) {
+    const Mask asked = (strip->probes > n) & !lost;
+    const Real offset = (float)n - middle, du = offset * strip->stepU, dv = offset * strip->stepV;
+    const Real atU = u + du, atV = v + dv;
+    const Real lowU = uLow + sumError(u, du, atU), lowV = vLow + sumError(v, dv, atV);
+    const Real s = asked ? wrapCoordinate(atU, lowU, level->wrapS) : (Real)(0.0f);
+    const Real t = asked ? wrapCoordinate(atV, lowV, level->wrapT) : (Real)(0.0f);
+    const Real back = count - 1.0f - (float)n, outside = back < (float)n ? back : (Real)((float)n);
+    const Real part = clampUnit((inSmaller - 2.0f * outside) * (offset == 0.0f ? (Real)(1.0f) : (Real)(0.5f)));
+    const Mask isSmaller = part == 1.0f, isBoth = asked & (part > 0.0f) & !isSmaller;
+    const Level one = {isSmaller ? smaller.first : larger.first, isSmaller ? smaller.width : larger.width,
+                       isSmaller ? smaller.height : larger.height, level->wrapS, level->wrapT};
+    Rgba found = blendTexels(scene, texture, &one, s, t, srgb);
+    if (some(isBoth)) {
+      const Rgba other = blendTexels(scene, texture, &smaller, s, t, srgb);
+      for (uint c = 0; c < 4; ++c) found.c[c] = isBoth ? found.c[c] * (1.0f - part) + other.c[c] * part : found.c[c];
+    }
+    for (uint c = 0; c < 4; ++c) sum.c[c] = asked ? sum.c[c] + found.c[c] : sum.c[c];
+  }
+  for (uint c = 0; c < 4; ++c) sum.c[c] = sum.c[c] / count;
+  return sum;
+}
+#endif
 
 // Shading looks up each slot: calls cost it less than a tenth of shade, where copies cost two thirds of the time
 // to compile. Searches look up one or two, mostly for alpha alone: in line the colours fall away (search/one_lane.cl).
@@ -114,27 +230,48 @@ TEXTURE_LOOKUP Rgba sampleTexture(const SceneView* scene, Natural slots, const U
   const Real s = isFirst ? uv->u[0] : uv->u[1], sLow = isFirst ? uv->uLow[0] : uv->uLow[1];
   const Real t = isFirst ? uv->v[0] : uv->v[1], tLow = isFirst ? uv->vLow[0] : uv->vLow[1];
   const uint rows = WORD_OF(DeviceTexture, transform);
-  const Mask width = TO_SIGNED(FIELD_BITS(&texture, DeviceTexture, width));
-  const Mask height = TO_SIGNED(FIELD_BITS(&texture, DeviceTexture, height));
-  const Natural wrapS = FIELD_BITS(&texture, DeviceTexture, wrapS), wrapT = FIELD_BITS(&texture, DeviceTexture, wrapT);
+  Level level;
+  level.first = FIELD_BITS(&texture, DeviceTexture, firstTexel);
+  level.width = TO_SIGNED(FIELD_BITS(&texture, DeviceTexture, width));
+  level.height = TO_SIGNED(FIELD_BITS(&texture, DeviceTexture, height));
+  level.wrapS = FIELD_BITS(&texture, DeviceTexture, wrapS);
+  level.wrapT = FIELD_BITS(&texture, DeviceTexture, wrapT);
   Real uLow, vLow;
-  Real u = transformCoordinate(&texture, rows, s, t, sLow, tLow, &uLow);
-  Real v = transformCoordinate(&texture, rows + 3, s, t, sLow, tLow, &vLow);
+  const Real u = transformCoordinate(&texture, rows, s, t, sLow, tLow, &uLow);
+  const Real v = transformCoordinate(&texture, rows + 3, s, t, sLow, tLow, &vLow);
   const Mask lost = !(isfinite(u + uLow) & isfinite(v + vLow)), zero = (Mask)(0);
-  u = lost ? (Real)(0.0f) : wrapCoordinate(u, uLow, wrapS) * TO_REAL(width);
-  v = lost ? (Real)(0.0f) : wrapCoordinate(v, vLow, wrapT) * TO_REAL(height);
+  const Real atU = lost ? (Real)(0.0f) : wrapCoordinate(u, uLow, level.wrapS);
+  const Real atV = lost ? (Real)(0.0f) : wrapCoordinate(v, vLow, level.wrapT);
   Rgba result = {{(Real)(0.0f), (Real)(0.0f), (Real)(0.0f), (Real)(0.0f)}};
+#ifdef TEXTURE_FOOTPRINTS
+  Real across[4];
+  for (uint n = 0; n < 4; n += 2) {
+    const Real du = isFirst ? uv->across[0][n] : uv->across[1][n];
+    const Real dv = isFirst ? uv->across[0][n + 1] : uv->across[1][n + 1];
+    across[n] = wordOf(&texture, rows) * du + wordOf(&texture, rows + 1) * dv;
+    across[n + 1] = wordOf(&texture, rows + 3) * du + wordOf(&texture, rows + 4) * dv;
+  }
+  const Strip strip = stripOf(across, uv->probes, FIELD_BITS(&texture, DeviceTexture, levels), &level);
+#define BLENDED meanOver(scene, &texture, &level, &strip, u, uLow, v, vLow, lost, srgb)
+#define MAGNIFIED &((strip.probes == 1u) & (strip.k == 0u) & (strip.between == 0.0f))
+#else
+#define BLENDED blendTexels(scene, &texture, &level, atU, atV, srgb)
+#define MAGNIFIED
+#endif
 #if HAS(NEAREST_FILTER)
-  const Mask nearest = (FIELD_BITS(&texture, DeviceTexture, flags) & TEXTURE_NEAREST) != 0;
-  if (some(!nearest)) result = blendTexels(scene, &texture, u, v, width, height, wrapS, wrapT, srgb);
+  const Mask nearest = ((FIELD_BITS(&texture, DeviceTexture, flags) & TEXTURE_NEAREST) != 0) MAGNIFIED;
+  if (some(!nearest)) result = BLENDED;
   if (some(nearest)) {
-    const Mask nx = wrapTexel(TO_WHOLE(floor(u)), width, wrapS), ny = wrapTexel(TO_WHOLE(floor(v)), height, wrapT);
-    result = chooseRgba(nearest, fetchTexel(scene, &texture, nx, ny, srgb), result);
+    const Mask nx = wrapTexel(TO_WHOLE(floor(atU * TO_REAL(level.width))), level.width, level.wrapS);
+    const Mask ny = wrapTexel(TO_WHOLE(floor(atV * TO_REAL(level.height))), level.height, level.wrapT);
+    result = chooseRgba(nearest, fetchTexel(scene, &texture, &level, nx, ny, srgb), result);
   }
 #else
-  result = blendTexels(scene, &texture, u, v, width, height, wrapS, wrapT, srgb);
+  result = BLENDED;
 #endif
-  if (some(lost)) result = chooseRgba(lost, fetchTexel(scene, &texture, zero, zero, srgb), result);
+#undef BLENDED
+#undef MAGNIFIED
+  if (some(lost)) result = chooseRgba(lost, fetchTexel(scene, &texture, &level, zero, zero, srgb), result);
   return result;
 }
 #endif

@@ -1,0 +1,149 @@
+// See texture_levels.h.
+#include "wavefront/texture_levels.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace whittle {
+namespace {
+
+int halved(int size) { return std::max(1, size / 2); }
+
+double decoded(double code) {
+  const double s = code / 255.0;
+  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+
+/// Between the light of sRGB codes and the codes, without a power for each texel.
+class SrgbCodes {
+ public:
+  SrgbCodes() {
+    for (std::size_t c = 0; c < 256; ++c)
+      light[c] = decoded(static_cast<double>(c)), ends_[c] = decoded(static_cast<double>(c) + 0.5);
+    std::size_t code = 0;
+    for (std::size_t i = 0; i < kSteps; ++i) {
+      while (code < 255 && ends_[code] <= static_cast<double>(i) / kSteps) ++code;
+      first_[i] = static_cast<std::uint8_t>(code);
+    }
+  }
+  /// The nearest code.
+  double codeOf(double linear) const {
+    std::size_t code = first_[std::min(kSteps - 1, static_cast<std::size_t>(linear * kSteps))];
+    while (code < 255 && ends_[code] <= linear) ++code;
+    return static_cast<double>(code);
+  }
+
+  std::array<double, 256> light{};
+
+ private:
+  static constexpr std::size_t kSteps = 4096;
+  std::array<double, 256> ends_{};  ///< where the next code is nearer
+  std::array<std::uint8_t, kSteps> first_{};
+};
+
+/// The texels of a row or column that make one of the next level, and their weights, whole numbers: of an odd
+/// size three, in turns more of the first and more of the last.
+struct Taps {
+  int first = 0, count = 1;
+  std::array<double, 3> weights{1, 0, 0};
+};
+
+Taps tapsOf(int at, int size) {
+  if (size == 1) return {};
+  const int half = size / 2;
+  if (size % 2 == 0) return {2 * at, 2, {1, 1, 0}};
+  return {
+      2 * at, 3, {static_cast<double>(half - at), static_cast<double>(half), static_cast<double>(at + 1)}};
+}
+
+template <typename Code>
+struct Level {
+  int width, height;
+  std::span<const Code> texels;
+};
+
+/// The mean of the texels under both taps, as codes that are not rounded yet.
+template <typename Code>
+std::array<double, 4> meanOf(const Level<Code>& from, const Taps& x, const Taps& y, Averaging averaging,
+                             const SrgbCodes& srgb) {
+  std::array<double, 4> sum{}, weighted{};
+  double all = 0.0;
+  for (int j = 0; j < y.count; ++j)
+    for (int i = 0; i < x.count; ++i) {
+      const double weight = x.weights[i] * y.weights[j];
+      const Code* rgba = &from.texels[4 * (static_cast<std::size_t>(y.first + j) * from.width + x.first + i)];
+      all += weight;
+      sum[3] += weight * rgba[3];
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double value = averaging == Averaging::Linear ? rgba[c] : srgb.light[rgba[c] & 255U];
+        sum[c] += weight * value;
+        weighted[c] += weight * rgba[3] * value;
+      }
+    }
+  const bool byAlpha = averaging == Averaging::ColorsByAlpha && sum[3] > 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double mean = byAlpha ? weighted[c] / sum[3] : sum[c] / all;
+    sum[c] = averaging == Averaging::Linear ? mean : srgb.codeOf(mean);
+  }
+  sum[3] /= all;
+  return sum;
+}
+
+template <typename Code>
+void eachLevelOf(const Image& image, std::span<const Code> texels, Averaging averaging,
+                 const std::function<void(std::span<const std::byte>)>& write) {
+  static const SrgbCodes kSrgb;
+  Level<Code> from{image.width, image.height, texels};
+  std::vector<Code> made, before;
+  while (from.width > 1 || from.height > 1) {
+    const int width = halved(from.width), height = halved(from.height);
+    made.resize(std::size_t{4} * width * height);
+    tbb::parallel_for(tbb::blocked_range<int>(0, height, 16), [&](const tbb::blocked_range<int>& rows) {
+      for (int y = rows.begin(); y < rows.end(); ++y)
+        for (int x = 0; x < width; ++x) {
+          const std::array<double, 4> mean =
+              meanOf(from, tapsOf(x, from.width), tapsOf(y, from.height), averaging, kSrgb);
+          Code* const out = &made[4 * (static_cast<std::size_t>(y) * width + x)];
+          // Halves to even: to one side they would add up from level to level.
+          for (std::size_t c = 0; c < 4; ++c) out[c] = static_cast<Code>(std::nearbyint(mean[c]));
+        }
+    });
+    write(std::as_bytes(std::span(made)));
+    std::swap(made, before);
+    from = {width, height, before};
+  }
+}
+
+}  // namespace
+
+int levelCount(int width, int height) {
+  int count = 1;
+  for (int size = std::max(width, height); size > 1; size /= 2) ++count;
+  return count;
+}
+
+std::size_t texelsOfLevels(int width, int height) {
+  std::size_t texels = 0;
+  for (int level = levelCount(width, height); level > 0; --level) {
+    texels += static_cast<std::size_t>(width) * height;
+    width = halved(width), height = halved(height);
+  }
+  return texels;
+}
+
+void eachSmallerLevel(const Image& image, Averaging averaging, bool isDeep,
+                      const std::function<void(std::span<const std::byte>)>& write) {
+  if (averaging == Averaging::None) return;
+  if (isDeep)
+    eachLevelOf<std::uint16_t>(image, image.deepTexels, averaging, write);
+  else
+    eachLevelOf<std::uint8_t>(image, image.texels, averaging, write);
+}
+
+}  // namespace whittle

@@ -84,6 +84,7 @@ class Commands(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
         for option, value in zip(arguments, arguments[1:]):
             if option in ("-o", "--stats", "--trace"):
+                value = re.sub("#+", lambda number: "0" * len(number[0]), value)  # the first frame of a film
                 self.assertGreater((self.folder / value).stat().st_size, 0, value)
 
     def checkExperiment(self, program, arguments):

@@ -29,6 +29,14 @@ double encoded(double linear) {
   return linear <= 0.04045 / 12.92 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
+/// Half way, give or take the rounding of a mean, to the even neighbour.
+double nearestEven(double value) {
+  constexpr double kRounding = 1e-9;
+  const double below = std::floor(value);
+  if (std::abs(value - below - 0.5) < kRounding) return 2 * std::round(below / 2 + 0.25);
+  return std::round(value);
+}
+
 template <class Code>
 Code channelMean(const Image& image, const std::vector<Code>& codes, const Mean& mean, int x, int y,
                  int width, int height, int channel) {
@@ -46,7 +54,7 @@ Code channelMean(const Image& image, const std::vector<Code>& codes, const Mean&
       all += share;
     }
   const double average = isColor && mean.byAlpha && alphas > 0 ? byAlpha / alphas : sum / all;
-  return static_cast<Code>(std::nearbyint(isColor ? 255 * encoded(average) : average));
+  return static_cast<Code>(nearestEven(isColor ? 255 * encoded(average) : average));
 }
 
 template <class Code>

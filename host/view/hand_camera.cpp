@@ -91,6 +91,11 @@ void HandCamera::setOrthographicHeight(double metres) {
   camera_.ymag = static_cast<float>(std::clamp(metres, kLeastHeight, kLargestHeight) / 2);
 }
 
+void HandCamera::openPlanes() {
+  camera_.znear = 0.0F;
+  camera_.zfar = std::numeric_limits<float>::infinity();
+}
+
 void HandCamera::switchOrthographic() {
   const double half = std::tan(static_cast<double>(camera_.yfov) / 2);
   if (camera_.orthographic) {

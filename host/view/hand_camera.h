@@ -31,6 +31,9 @@ class HandCamera {
   void look(double right, double up);
   /// Metres.
   void fly(double right, double up, double ahead);
+  /// What is near and far is all seen: a view by hand has the near and far plane of nobody's camera, and no
+  /// option of the command line either.
+  void openPlanes();
   /// Perspective and orthographic with the same height of picture at the pivot.
   void switchOrthographic();
 

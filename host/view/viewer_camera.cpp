@@ -19,6 +19,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 }  // namespace
 
 void Viewer::cameraMoved() {
+  camera_.openPlanes();
   if (scene_) ask();
 }
 
@@ -57,7 +58,7 @@ void Viewer::frameAll() {
     camera.position = glm::vec3(middle() - glm::dvec3(camera.forward) * away);
   }
   camera_ = HandCamera(camera, middle());
-  ask();
+  cameraMoved();
 }
 
 void Viewer::seeFrom(Side side) {

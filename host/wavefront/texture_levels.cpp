@@ -24,15 +24,19 @@ double decoded(double code) {
 class SrgbCodes {
  public:
   SrgbCodes() {
-    for (std::size_t c = 0; c < 256; ++c)
-      light[c] = decoded(static_cast<double>(c)), ends_[c] = decoded(static_cast<double>(c) + 0.5);
+    for (std::size_t c = 0; c < 256; ++c) {
+      light[c] = decoded(static_cast<double>(c));
+      // The curve begins with a straight piece, where means of two codes lie half way between two others.
+      const double half = c % 2 == 0 ? 0.5 + kTie : 0.5 - kTie;
+      ends_[c] = decoded(static_cast<double>(c) + half);
+    }
     std::size_t code = 0;
     for (std::size_t i = 0; i < kSteps; ++i) {
       while (code < 255 && ends_[code] <= static_cast<double>(i) / kSteps) ++code;
       first_[i] = static_cast<std::uint8_t>(code);
     }
   }
-  /// The nearest code.
+  /// The nearest code; of two as near, which rounding hides, the even one.
   double codeOf(double linear) const {
     std::size_t code = first_[std::min(kSteps - 1, static_cast<std::size_t>(linear * kSteps))];
     while (code < 255 && ends_[code] <= linear) ++code;
@@ -43,7 +47,8 @@ class SrgbCodes {
 
  private:
   static constexpr std::size_t kSteps = 4096;
-  std::array<double, 256> ends_{};  ///< where the next code is nearer
+  static constexpr double kTie = 1e-9;  ///< far above the rounding of doubles, in codes
+  std::array<double, 256> ends_{};      ///< where the next code is nearer
   std::array<std::uint8_t, kSteps> first_{};
 };
 

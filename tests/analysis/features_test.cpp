@@ -220,7 +220,9 @@ TEST(Features, EverySetThatScenesAskForCompilesWithoutAWarning) {
   ProgramBuilds builds;
   for (const std::uint64_t bits : sets) EXPECT_EQ(builds.log(bits), "") << std::hex << bits;
   // Scenes differ in how they shade; what they share is compiled once.
-  EXPECT_LE(builds.different("queues"), 6);
+  // Queues differ in what their entries carry: with and without impulses, and their cones where textures are
+  // filtered.
+  EXPECT_LE(builds.different("queues"), 8);
   EXPECT_LE(builds.different("searches"), static_cast<std::ptrdiff_t>(sets.size() / 2));
   RecordProperty("sets", static_cast<int>(sets.size()));
   for (const char* name : {"queues", "searches", "shading"})

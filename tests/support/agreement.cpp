@@ -91,8 +91,12 @@ Vec3 pixelOf(const FloatImage& image, std::size_t i) {
   return {image.pixels[3 * i], image.pixels[3 * i + 1], image.pixels[3 * i + 2]};
 }
 
+bool samePrimitive(const Agreement& a, std::size_t i) {
+  return a.kernel.aovs.at("primitive").pixels[i] == a.reference.primitive.pixels[i];
+}
+
 bool sameHit(const Agreement& a, std::size_t i) {
-  if (a.kernel.aovs.at("primitive").pixels[i] == a.reference.primitive.pixels[i]) return true;
+  if (samePrimitive(a, i)) return true;
   const double depth = a.reference.depth.pixels[i];
   return std::abs(a.kernel.aovs.at("depth").pixels[i] - depth) <= 1e-4 * depth;
 }
@@ -125,6 +129,7 @@ void judgePixels(Surroundings& surroundings, Agreement& a) {
     const Neighbourhood around = surroundings.of(i);
     addLoose(a, around);
     if (explains(around, found, a.mean)) continue;
+    if (same && !samePrimitive(a, i)) continue;  // of two faces in one plane either may show
     ++a.unexplained;
     fmt::print("pixel ({}, {}): {} {} {}, reference {} {} {}, nearby {} {} {} to {} {} {}\n",
                i % a.reference.radiance.width, i / a.reference.radiance.width, found.x, found.y, found.z,

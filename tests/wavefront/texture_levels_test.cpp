@@ -119,6 +119,26 @@ TEST(TextureLevels, NormalsAreAveragedAsVectors) {
   EXPECT_EQ(level[2], 255);
 }
 
+/// Where sRGB is straight, the mean of a few codes lies half way between two others as often as not.
+TEST(TextureLevels, HalvesAreRoundedAsInTheReference) {
+  Rng rng(6);
+  for (const auto& [width, height] : {std::pair{64, 64}, {33, 15}}) {
+    Image image = randomImage(width, height, false, rng);
+    for (std::uint8_t& code : image.texels) code = static_cast<std::uint8_t>(code % 10);
+    Image expected = image;
+    for (const auto& level : levelsOf<std::uint8_t>(image, Averaging::Colors)) {
+      expected = reference::smaller(expected, {reference::Encoding::Srgb, false});
+      ASSERT_EQ(level, expected.texels) << width << " by " << height;
+    }
+  }
+  const auto dark = levelsOf<std::uint8_t>(filled(1, 2, {0, 3, 0, 0}), Averaging::Colors)[0];
+  EXPECT_EQ(dark[1], 3);
+  Image two = filled(2, 1, {0, 2, 6, 255});
+  two.texels[4] = 1, two.texels[5] = 3, two.texels[6] = 7;
+  EXPECT_EQ(levelsOf<std::uint8_t>(two, Averaging::Colors)[0], (std::vector<std::uint8_t>{0, 2, 6, 255}))
+      << "of 0.5, 2.5 and 6.5 the even neighbours";
+}
+
 TEST(TextureLevels, AreThoseOfTheReference) {
   Rng rng(5);
   for (const auto& [width, height] : {std::pair{16, 16}, {33, 5}, {7, 63}, {1, 40}, {12, 3}}) {

@@ -73,8 +73,8 @@ struct Settings {
   int raysPerPixel = 1;  ///< 1 = through the pixel's centre
   /// Over what part of a texture a ray takes its mean: none of it, a circle, or a strip of circles.
   TextureFilter textureFilter = TextureFilter::Anisotropic;
-  bool areaLights = false;   ///< surfaces that glow light others; loading has added the light to the scene
-  bool skyLight = false;     ///< the background lights surfaces; loading has added the light to the scene
+  bool areaLights = false;  ///< surfaces that glow light others; loading has added the light to the scene
+  bool skyLight = false;    ///< the background lights surfaces; loading has added the light to the scene
   /// Where a smooth surface is made of coarse triangles, shadow rays start on the curved surface that its
   /// normals mean, so that shadows begin without facets.
   bool smoothTerminator = true;

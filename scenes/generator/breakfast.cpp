@@ -36,6 +36,20 @@ void addBreakfastLights(GltfBuilder& scene) {
                   .castsShadows = false});
 }
 
+/// Four seconds from the egg to the cherries, setting out and coming to rest softly.
+std::vector<CameraView> pastTheTable() {
+  constexpr int kViews = 33;
+  constexpr double kSeconds = 4;
+  std::vector<CameraView> views;
+  for (int i = 0; i < kViews; ++i) {
+    const double t = static_cast<double>(i) / (kViews - 1), gone = t * t * (3 - 2 * t);
+    views.push_back({.seconds = kSeconds * t,
+                     .from = glm::mix(glm::dvec3(-0.24, 0.16, 0.80), glm::dvec3(0.22, 0.25, 0.86), gone),
+                     .at = glm::mix(glm::dvec3(-0.05, 0.10, 0), glm::dvec3(0.05, 0.11, 0), gone)});
+  }
+  return views;
+}
+
 }  // namespace
 
 void buildBreakfast(GltfBuilder& scene) {
@@ -52,6 +66,7 @@ void buildBreakfast(GltfBuilder& scene) {
   addBreakfastLights(scene);
   scene.setBackground({0.72, 0.84, 0.98});
   scene.addCamera("camera", {0.02, 0.21, 0.98}, {0.01, 0.112, 0}, 27);
+  scene.moveCamera("past the table", pastTheTable());
 }
 
 }  // namespace generator

@@ -313,7 +313,39 @@ void GltfBuilder::addCamera(const std::string& name, glm::dvec3 from, glm::dvec3
   node.camera = static_cast<int>(model_.cameras.size()) - 1;
   node.translation = vectorOf(from);
   node.rotation = lookRotation(at - from);
-  addNode(std::move(node));
+  camera_ = addNode(std::move(node));
+}
+
+void GltfBuilder::moveCamera(const std::string& name, const std::vector<CameraView>& views) {
+  std::vector<float> times;
+  std::vector<glm::vec3> places;
+  std::vector<glm::vec4> turns;
+  for (const CameraView& view : views) {
+    times.push_back(static_cast<float>(view.seconds));
+    places.emplace_back(view.from);
+    const std::vector<double> q = lookRotation(view.at - view.from);
+    turns.emplace_back(q[0], q[1], q[2], q[3]);
+  }
+  constexpr int kFloat = TINYGLTF_COMPONENT_TYPE_FLOAT, kNoTarget = 0;
+  const int input = addAccessor(times, kFloat, TINYGLTF_TYPE_SCALAR, kNoTarget);
+  model_.accessors[static_cast<std::size_t>(input)].minValues = {static_cast<double>(times.front())};
+  model_.accessors[static_cast<std::size_t>(input)].maxValues = {static_cast<double>(times.back())};
+  tinygltf::Animation animation;
+  animation.name = name;
+  const auto add = [&](const char* path, int output) {
+    tinygltf::AnimationSampler sampler;
+    sampler.input = input;
+    sampler.output = output;
+    tinygltf::AnimationChannel channel;
+    channel.sampler = static_cast<int>(animation.samplers.size());
+    channel.target_node = camera_;
+    channel.target_path = path;
+    animation.samplers.push_back(std::move(sampler));
+    animation.channels.push_back(std::move(channel));
+  };
+  add("translation", addAccessor(places, kFloat, TINYGLTF_TYPE_VEC3, kNoTarget));
+  add("rotation", addAccessor(turns, kFloat, TINYGLTF_TYPE_VEC4, kNoTarget));
+  model_.animations.push_back(std::move(animation));
 }
 
 void GltfBuilder::setBackground(glm::dvec3 radiance) {

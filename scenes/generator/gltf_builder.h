@@ -64,6 +64,12 @@ struct LightSpec {
   bool castsShadows = true;
 };
 
+/// Where a camera is at a time, and what it looks at.
+struct CameraView {
+  double seconds = 0;
+  glm::dvec3 from{0}, at{0, 0, -1};
+};
+
 /// Where a geometry goes: scaled, turned, moved.
 struct Placement {
   glm::dvec3 position{0};
@@ -97,6 +103,9 @@ class GltfBuilder {
   void addLight(const LightSpec& spec);
   /// A perspective camera at `from` that looks at `at`, +Y up, `yfovDegrees` the full vertical angle of view.
   void addCamera(const std::string& name, glm::dvec3 from, glm::dvec3 at, double yfovDegrees);
+  /// An animation of the camera that was added last: from view to view at constant speed. It stays where it
+  /// was added until somebody plays that. Seconds from 0 on, growing.
+  void moveCamera(const std::string& name, const std::vector<CameraView>& views);
   /// Radiance of rays that leave the scene (the scene's extras.whittle.background).
   void setBackground(glm::dvec3 radiance);
 
@@ -114,6 +123,7 @@ class GltfBuilder {
   void useExtension(const std::string& name);
   int addNode(tinygltf::Node node);
 
+  int camera_ = -1;  ///< node of the one that was added last
   tinygltf::Model model_;
   std::vector<Geometry> geometries_;
   tinygltf::Value::Array lights_;

@@ -23,6 +23,21 @@ std::uint64_t documentedBound(std::uint64_t capacity, std::uint64_t bounces) {
   return (4 * (bounces * RAY_PLANES + workPlanes) + 1) * (capacity + QUEUE_PADDING) + 4 * totals;
 }
 
+/// The items of scan_chunks are rounded up to a work-group, and those up to SUMS write, whatever is traced.
+TEST(BoundedMemory, SumsHaveRoomWhereNothingReflects) {
+  Scene scene;
+  addFloor(scene, lambert({0.5F, 0.5F, 0.5F}), 0, true, 4);
+  scene.lights.push_back(pointLight({1, 2, 0.5F}, 20));
+  scene.cameras = {lookingDown()};
+  Settings settings = smallSettings(1);
+  const Stats stats = renderOnDevice(scene, settings).stats;
+  EXPECT_EQ(stats.rays.impulse, 0U);
+  std::uint64_t sums = 0;
+  for (const auto& b : stats.buffers)
+    if (b.name == "sums") sums = b.bytes;
+  EXPECT_GE(sums, SUMS * sizeof(std::uint32_t));
+}
+
 TEST(BoundedMemory, NestedGlassSixteenDeep) {
   const Scene scene = ownScene("nested_glass");
   Settings settings = smallSettings(16);

@@ -24,7 +24,6 @@ namespace whittle::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const FloatImage& reference,
                                 Trace* trace, RenderSession* session) {
@@ -108,14 +107,14 @@ void writeResults(const RenderOptions& o, const Scene& scene, RenderResult& resu
       writeAov({aov.name, to}, result.radiance, result.alpha, result.aovs, metadata);
     });
   nowDoing("");
-  result.stats.time.write = since(writing);
+  result.stats.time.write = secondsSince(writing);
   result.stats.phases.push_back({"write", steadySeconds(writing), result.stats.time.write});
   if (trace) {
     trace->phase("write", writing);
     files.add(o.trace, " (open it in https://ui.perfetto.dev)",
               [&](const auto& to) { writeTextFile(to, trace->toText()); });
   }
-  result.stats.time.total = since(start);
+  result.stats.time.total = secondsSince(start);
   if (!o.stats.empty())
     files.add(o.stats, "", [&](const auto& to) { writeTextFile(to, statsText(o, result.stats)); });
 }

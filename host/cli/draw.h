@@ -35,6 +35,10 @@ struct RenderOptions {
   std::vector<AovOutput> aovs;  ///< aovTexts, parsed
 };
 
+inline double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Runs `work`; errors of kernels and devices in words that help.
 void explainingErrors(const RenderOptions& o, const std::function<void()>& work);
 

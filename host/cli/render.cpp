@@ -32,7 +32,6 @@ namespace whittle::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Fills in the default output and refuses, before anything is loaded, what could not be written at the end.
 OutputCheck checkOutputs(RenderOptions& o) {
@@ -178,7 +177,7 @@ int runFrames(RenderOptions& o) {
       first.emplace(scene);
     if (scene.meshesMove) session.sceneChanged();
     float stops = 0.0F;
-    isComplete &= drawScene(one, scene, {}, nullptr, &session, start, since(start), stops);
+    isComplete &= drawScene(one, scene, {}, nullptr, &session, start, secondsSince(start), stops);
     o.settings.exposure = stops;
     o.settings.ambient = one.settings.ambient;
     o.settings.focusDistance = one.settings.focusDistance;
@@ -213,7 +212,7 @@ int runRender(RenderOptions& o) {
   for (const auto& file : notices.files) check.reads(file);
   if (o.settings.crop && !o.reference.empty()) reference = cutOut(reference, *o.settings.crop);
   if (trace) trace->phase("load", start);
-  const double load = since(start);
+  const double load = secondsSince(start);
   if (o.explain) {
     tellExplanation(scene, o);
     if (o.outputs.empty() && o.aovs.empty() && o.stats.empty() && o.trace.empty() && !o.profile) return 0;

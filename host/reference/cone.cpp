@@ -62,8 +62,8 @@ double bendOf(const Scene& scene, std::uint32_t triangle) {
 Footprint footprintOf(const Scene& scene, const Ray& ray, std::uint32_t triangle, int uvSet, double width) {
   const auto& uvs = uvSet == 1 ? scene.uv1 : scene.uv0;
   if (uvs.empty()) return {};
-  const auto [p0, p1, p2] = cornersOf(scene, triangle);
-  const Vec3 n = glm::cross(p1 - p0, p2 - p0);
+  const auto corners = cornersOf(scene, triangle);
+  const Vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0], n = glm::cross(e1, e2);
   const Triangle& t = scene.triangles[triangle];
   const Vec2 u0(uvs[t.v0]), u1(uvs[t.v1]), u2(uvs[t.v2]);
   const Basis across = basisAbout(ray.direction);
@@ -71,8 +71,8 @@ Footprint footprintOf(const Scene& scene, const Ray& ray, std::uint32_t triangle
     // The step on the surface that a step sideways of the ray makes, as parts of the triangle's edges.
     const Vec3 step =
         width * (sideways - ray.direction * (glm::dot(sideways, n) / glm::dot(ray.direction, n)));
-    const double b1 = glm::dot(glm::cross(step, p2 - p0), n) / glm::dot(n, n);
-    const double b2 = glm::dot(glm::cross(p1 - p0, step), n) / glm::dot(n, n);
+    const double b1 = glm::dot(glm::cross(step, e2), n) / glm::dot(n, n);
+    const double b2 = glm::dot(glm::cross(e1, step), n) / glm::dot(n, n);
     return b1 * (u1 - u0) + b2 * (u2 - u0);
   };
   return {moved(across.right), moved(across.up)};

@@ -110,7 +110,8 @@ std::uint64_t peakBytes(const Scene& scene, const RenderPlan& plan, std::uint64_
       (device.named("aovs") > 0 ? device.named("aovs") * 2 + device.named("pixelOrder") : 0);
   // Encoding: the picture once more, as codes or as floats that do not compress.
   // Glare is a picture more, made of three.
-  const std::uint64_t glare = plan.settings.bloom.strength > 0.0F ? 4 * 3 * sizeof(float) * pixels : 0;
+  const std::uint64_t glare =
+      plan.settings.bloom.strength > 0.0F ? std::uint64_t{4} * 3 * sizeof(float) * pixels : 0;
   const std::uint64_t writing = drawn + 2 * channels * sizeof(float) * pixels + glare;
   const std::uint64_t own = std::max({whole + build, whole + upload, uploading, rendering, writing});
   return std::max(kProgramBytes + kRuntimeBytes + own, loadBytes);

@@ -129,6 +129,7 @@ void report(const RenderOptions& o, const Stats& stats, const OutputWriter& file
 void warnOfResult(const RenderOptions& o, const Stats& stats) {
   if (stats.nonFinite > 0)
     warn(fmt::format("{} samples were not finite and count as black", formatInteger(stats.nonFinite)));
+  if (o.scene.isAgain) return;  // said of the first frame
   if (stats.ended.cutOff > 0.0 && !std::isfinite(stats.biasBound))
     warn(
         "no bound on what --cutoff left out: a light lies on a surface that scatters it, a "

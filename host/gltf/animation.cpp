@@ -146,7 +146,9 @@ std::size_t animationCalled(const Document& document, const std::vector<Animatio
   std::string names;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].name == wanted) return i;
-    if (names.size() < 150) names += fmt::format("{}{}{}", i > 0 ? ", " : "", i, quotedName(all[i].name));
+    if (names.size() < 150)
+      names += fmt::format("{}{}{}", i > 0 ? ", " : "", i,
+                           all[i].name.empty() ? " without a name" : quotedName(all[i].name));
   }
   std::size_t number = 0;
   const char* end = wanted.data() + wanted.size();
@@ -173,14 +175,15 @@ std::vector<AnimationFacts> animationsOf(const Json& file) {
   return found;
 }
 
-std::vector<bool> poseNodes(Document& document, const std::optional<std::string>& wanted, double seconds) {
-  std::vector<bool> moved(document.nodes.size());
+Posed poseNodes(Document& document, const std::optional<std::string>& wanted, double seconds) {
+  Posed posed{-1, std::vector<bool>(document.nodes.size())};
   const auto& all = document.animationFacts;
-  if (all.empty() && !wanted) return moved;
+  if (all.empty() && !wanted) return posed;
   const std::size_t index = wanted ? animationCalled(document, all, *wanted) : 0;
+  posed.animation = static_cast<int>(index);
   const Json checked = checkedAnimations(document, Json::array({document.animations[index]}));
-  AnimationReader(document, checked[0], index).pose(seconds, moved);
-  return moved;
+  AnimationReader(document, checked[0], index).pose(seconds, posed.moved);
+  return posed;
 }
 
 bool moveMeshes(const Document& document, const Hierarchy& hierarchy, std::vector<bool> moved) {

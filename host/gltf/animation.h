@@ -16,11 +16,15 @@ namespace whittle::gltf {
 /// it is counts as 0 s long.
 std::vector<AnimationFacts> animationsOf(const Json& file);
 
+struct Posed {
+  int animation = -1;       ///< its index; -1: the file has none
+  std::vector<bool> moved;  ///< [node] the animation itself moves it
+};
+
 /// Puts the nodes of the file where an animation has them at `seconds`; before its first keyframe and after
 /// its last one they are as there. `wanted`: its name or index; unset: the first. The document has kept the
-/// parts of its transforms. Returns which nodes the animation itself moves, one flag a node. Throws
-/// InputError where there is no such animation, or it cannot be read.
-std::vector<bool> poseNodes(Document& document, const std::optional<std::string>& wanted, double seconds);
+/// parts of its transforms. Throws InputError where there is no such animation, or it cannot be read.
+Posed poseNodes(Document& document, const std::optional<std::string>& wanted, double seconds);
 
 /// Whether a mesh that is shown moves, bends or changes its shape when these nodes do: with them, below them,
 /// or by a joint of its skin.

@@ -144,8 +144,12 @@ std::vector<bool> pose(Document& document, const LoadOptions& options, Scene& sc
   scene.animations = document.animationFacts;
   const auto& all = scene.animations;
   if (document.isPosed) {
-    if (all.empty() && !options.animation) notices.note("--time: the file has no animation, nothing moves");
-    return poseNodes(document, options.animation, options.time.value_or(0.0));
+    if (all.empty() && !options.animation) notices.note("the file has no animation: nothing moves");
+    Posed posed = poseNodes(document, options.animation, options.time.value_or(0.0));
+    const double end = posed.animation < 0 ? 0.0 : all[at(posed.animation)].seconds;
+    if (end > 0.0 && options.time.value_or(0.0) > end)
+      notices.note(fmt::format("the animation ends at {:.4g} s: its last pose is shown", end));
+    return std::move(posed.moved);
   }
   if (!all.empty())
     notices.note(fmt::format(

@@ -51,10 +51,10 @@ composition watchmaker 12 --bounces 10
 composition valley 64 --sky 14,70 --sun-angle 0.53 --bloom 0.05 --width 960 --height 540 --cutoff 0 --exposure auto
 if wanted film; then # of the camera past the breakfast; img2webp is of Debian's package webp
   "$(dirname "$whittle")/make_scenes" - --breakfast "$work/breakfast.glb"
-  "$whittle" render "$work/breakfast.glb" -o "$work/film_##.png" --frames 0:47 --fps 12 --width 480 --height 270 \
-    --rays-per-pixel 12 --sampler sobol --bounces 8 --cutoff 1e-2 --light-radius 0.12 --ambient 0.06 \
+  "$whittle" render "$work/breakfast.glb" -o "$work/film_##.png" --frames 0:31 --fps 8 --width 480 --height 270 \
+    --rays-per-pixel 8 --sampler sobol --bounces 8 --cutoff 1e-2 --light-radius 0.12 --ambient 0.06 \
     --tone-map filmic --exposure 0 --quiet
-  img2webp -loop 0 -d 83 -lossy -q 70 "$work"/film_*.png -o "$here/film.webp" >/dev/null
+  img2webp -loop 0 -d 125 -lossy -q 70 "$work"/film_*.png -o "$here/film.webp" >/dev/null
   echo film
 fi
 if wanted contact_sheet; then "$here/contact_sheet.py" "$whittle"; fi

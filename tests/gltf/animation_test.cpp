@@ -146,6 +146,9 @@ TEST(GltfAnimation, CamerasAndLightsMoveAlone) {
   expectNear(scene.cameras[0].position, {0, 0, 7}, 0);
   expectNear(scene.lights[0].position, {0, 1, 0}, 0);
   EXPECT_FALSE(scene.meshesMove);
+  EXPECT_FALSE(mentions(b.notices.notes, "its last pose"));
+  expectNear(b.load(at(9)).cameras[0].position, {0, 0, 8}, 0);
+  EXPECT_TRUE(mentions(b.notices.notes, "ends at 1 s: its last pose is shown"));
 }
 
 TEST(GltfAnimation, SkinsFollowTheirJoints) {

@@ -14,6 +14,7 @@
 #include "report/text.h"
 #include "scene/appearance.h"
 #include "scene/input_error.h"
+#include "scene/sky_light.h"
 
 namespace whittle::cli {
 namespace {
@@ -134,12 +135,12 @@ void applyBackground(Scene& scene, const std::string& text, const Settings& sett
   if (!text.empty()) scene.background = parseBackground(text, budget, notices);
   scene.background.unscaled = scene.background.radiance;
   turnAndScale(scene.background, settings);
-  const bool isBlack = scene.background.radiance == glm::vec3(0.0F);
-  if (settings.backgroundStrength != 1.0F && isBlack && settings.backgroundStrength > 0.0F)
+  const bool isDark = isBlack(scene.background);
+  if (settings.backgroundStrength != 1.0F && isDark && settings.backgroundStrength > 0.0F)
     notices.note("--background-strength changes nothing: what surrounds the scene is black");
   if (settings.backgroundRotation != 0.0 && scene.background.hasSun)
     notices.note("--background-rotation changes nothing: --sky says where its sun stands");
-  else if (settings.backgroundRotation != 0.0 && (isBlack || scene.background.map.empty()))
+  else if (settings.backgroundRotation != 0.0 && (isDark || scene.background.map.empty()))
     notices.note("--background-rotation changes nothing: what surrounds the scene is the same all around");
 }
 

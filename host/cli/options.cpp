@@ -320,6 +320,7 @@ void lightByBackground(Scene& scene, const Settings& settings, MemoryBudget& bud
 /// A studio's walls send some of its light back, and a sky of ours lights what lies in the shade, unless it
 /// does so by rays.
 void settleAmbient(const SceneOptions& options, const Scene& scene, Settings& settings, Notices& notices) {
+  if (options.isAgain) return;  // settled for the first frame
   const bool isUnset = options.ambient && !given(options.ambient);
   const bool isStudio = isUnset && scene.hasStudioLights, isSky = isUnset && scene.sky;
   if (hasSkyLight(scene) || !(isStudio || isSky || !settings.ambient)) return;

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "gltf/accessor.h"
 #include "gltf/check.h"
+#include "gltf/choice.h"
 #include "gltf/keyframes.h"
 
 namespace whittle::gltf {
@@ -141,23 +141,6 @@ std::optional<double> lastTimeOf(const Json& sampler, const Json& accessors) {
   return last[0].get<double>();
 }
 
-std::size_t animationCalled(const Document& document, const std::vector<AnimationFacts>& all,
-                            const std::string& wanted) {
-  std::string names;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].name == wanted) return i;
-    if (names.size() < 150)
-      names += fmt::format("{}{}{}", i > 0 ? ", " : "", i,
-                           all[i].name.empty() ? " without a name" : quotedName(all[i].name));
-  }
-  std::size_t number = 0;
-  const char* end = wanted.data() + wanted.size();
-  const auto [parsed, error] = std::from_chars(wanted.data(), end, number);
-  if (error == std::errc() && parsed == end && number < all.size()) return number;
-  document.fail(
-      fmt::format("has no animation{} (it has: {})", quotedName(wanted), names.empty() ? "none" : names));
-}
-
 }  // namespace
 
 std::vector<AnimationFacts> animationsOf(const Json& file) {
@@ -179,7 +162,9 @@ Posed poseNodes(Document& document, const std::optional<std::string>& wanted, do
   Posed posed{-1, std::vector<bool>(document.nodes.size())};
   const auto& all = document.animationFacts;
   if (all.empty() && !wanted) return posed;
-  const std::size_t index = wanted ? animationCalled(document, all, *wanted) : 0;
+  std::vector<std::string> names;
+  for (const AnimationFacts& facts : all) names.push_back(facts.name);
+  const std::size_t index = wanted ? indexCalled(document, "animation", names, *wanted) : 0;
   posed.animation = static_cast<int>(index);
   const Json checked = checkedAnimations(document, Json::array({document.animations[index]}));
   AnimationReader(document, checked[0], index).pose(seconds, posed.moved);

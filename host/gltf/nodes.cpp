@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 
+#include "gltf/choice.h"
 #include "gltf/origin.h"
 
 namespace whittle::gltf {
@@ -89,18 +89,9 @@ void globalTransforms(const Document& document, const Parents& parents, const st
 }
 
 int sceneCalled(const Document& document, const std::string& wanted) {
-  const auto& scenes = document.model.scenes;
-  std::string names;
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    if (scenes[i].name == wanted) return static_cast<int>(i);
-    if (names.size() < 150) names += fmt::format("{}{}{}", i > 0 ? ", " : "", i, quotedName(scenes[i].name));
-  }
-  std::size_t number = 0;
-  const char* end = wanted.data() + wanted.size();
-  const auto [parsed, error] = std::from_chars(wanted.data(), end, number);
-  if (error == std::errc() && parsed == end && number < scenes.size()) return static_cast<int>(number);
-  document.fail(
-      fmt::format("has no scene{} (it has: {})", quotedName(wanted), names.empty() ? "none" : names));
+  std::vector<std::string> names;
+  for (const auto& scene : document.model.scenes) names.push_back(scene.name);
+  return static_cast<int>(indexCalled(document, "scene", names, wanted));
 }
 
 int chooseScene(const Document& document, const std::optional<std::string>& wanted, Notices& notices) {

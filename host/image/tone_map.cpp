@@ -19,15 +19,6 @@ namespace {
 /// Share of the removed excess that fades towards white; Khronos' value.
 constexpr double kFade = 0.15;
 
-/// Where codes begin, and a table that is entered with a value and leads to a code at most a few below its
-/// own.
-struct CodeBorders {
-  static constexpr int kCells = 1 << 12;
-  std::array<double, 255>
-      borders{};  ///< [i] the linear value half way (in code space) between code i and i + 1
-  std::array<std::uint8_t, kCells + 1> first{};  ///< [k] the code of k / kCells
-};
-
 /// `color` (largest channel 1) with the share `keep` of its OKLab chroma and of its distance to white's
 /// lightness: its hue stays. The largest channel is 1 again; what sRGB has no place for is cut.
 glm::dvec3 faded(const glm::dvec3& color, double keep) {
@@ -44,24 +35,6 @@ glm::dvec3 faded(const glm::dvec3& color, double keep) {
   return light / std::max({light.x, light.y, light.z});
 }
 
-CodeBorders makeBorders() {
-  CodeBorders b;
-  for (int i = 0; i < 255; ++i) b.borders[i] = srgbDecode((i + 0.5) / 255.0);
-  int code = 0;
-  for (int k = 0; k <= CodeBorders::kCells; ++k) {
-    while (code < 255 && b.borders[code] <= static_cast<double>(k) / CodeBorders::kCells) ++code;
-    b.first[k] = static_cast<std::uint8_t>(code);
-  }
-  return b;
-}
-
-/// v in [0, 1].
-std::uint8_t encodeByte(const CodeBorders& b, double v) {
-  std::uint8_t code = b.first[static_cast<std::size_t>(v * CodeBorders::kCells)];
-  while (code < 255 && b.borders[code] <= v) ++code;
-  return code;
-}
-
 /// The code below a value or the one above, by a threshold in (0, 1).
 std::uint8_t ditheredByte(double v, double threshold) {
   return static_cast<std::uint8_t>(std::min(255.0, std::floor(255.0 * srgbEncode(v) + threshold)));
@@ -69,14 +42,14 @@ std::uint8_t ditheredByte(double v, double threshold) {
 
 /// How a picture's values become codes.
 struct Encoding {
-  CodeBorders borders = makeBorders();
   double scale = 1.0;
   bool rollsOff = true, dithers = false;
   int channels = 3;
   Frame frame{};
 
   std::uint8_t operator()(double v, double threshold) const {
-    return dithers ? ditheredByte(v, threshold) : encodeByte(borders, v);
+    static const SrgbCodes kCodes(SrgbCodes::Halves::Up);
+    return dithers ? ditheredByte(v, threshold) : kCodes.codeOf(v);
   }
 };
 
@@ -124,9 +97,6 @@ double rollOff(double v) {
   constexpr double kRoom = 1 - kToneKnee;
   return v <= kToneKnee ? v : 1 - kRoom * kRoom / (v - kToneKnee + kRoom);
 }
-
-double srgbEncode(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
-double srgbDecode(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
 float fittingExposure(const FloatImage& image) {
   const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;

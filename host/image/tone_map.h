@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "image/image_io.h"
+#include "image/srgb.h"
 
 namespace whittle {
 
@@ -14,10 +15,6 @@ inline constexpr double kToneKnee = 0.8;
 /// The roll-off: the identity up to kToneKnee, then 1 − d²/(v − kToneKnee + d) with d = 1 − kToneKnee, which
 /// goes on with slope 1 and approaches 1. `v` is a linear value ≥ 0 after exposure.
 double rollOff(double v);
-
-/// IEC 61966-2-1, both ways, in double; v in [0, 1].
-double srgbEncode(double v);
-double srgbDecode(double v);
 
 /// Stops that make a picture fit: 0 where it does. One fits if the middle of what is not black (its geometric
 /// mean luminance) lies between 1/50 and 1, and no more than a quarter of it is brighter than white.

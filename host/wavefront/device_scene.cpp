@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "image/srgb.h"
 #include "kernels/shared/layout.h"
 #include "scene/free_array.h"
 #include "scene/machine_memory.h"
@@ -94,11 +95,8 @@ std::vector<TreeNode> withSentinels(const TriTree& tree) {
 
 std::vector<float> srgbTable() {
   std::vector<float> table(256);
-  for (int i = 0; i < 256; ++i) {
-    const double s = i / 255.0;
-    table[static_cast<std::size_t>(i)] =
-        static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-  }
+  for (int i = 0; i < 256; ++i)
+    table[static_cast<std::size_t>(i)] = static_cast<float>(srgbDecode(i / 255.0));
   return table;
 }
 

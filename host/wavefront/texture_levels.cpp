@@ -10,46 +10,21 @@
 #include <utility>
 #include <vector>
 
+#include "image/srgb.h"
+
 namespace whittle {
 namespace {
 
 int halved(int size) { return std::max(1, size / 2); }
 
-double decoded(double code) {
-  const double s = code / 255.0;
-  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-}
-
-/// Between the light of sRGB codes and the codes, without a power for each texel.
-class SrgbCodes {
- public:
-  SrgbCodes() {
-    for (std::size_t c = 0; c < 256; ++c) {
-      light[c] = decoded(static_cast<double>(c));
-      // The curve begins with a straight piece, where means of two codes lie half way between two others.
-      const double half = c % 2 == 0 ? 0.5 + kTie : 0.5 - kTie;
-      ends_[c] = decoded(static_cast<double>(c) + half);
-    }
-    std::size_t code = 0;
-    for (std::size_t i = 0; i < kSteps; ++i) {
-      while (code < 255 && ends_[code] <= static_cast<double>(i) / kSteps) ++code;
-      first_[i] = static_cast<std::uint8_t>(code);
-    }
-  }
-  /// The nearest code; of two as near, which rounding hides, the even one.
-  double codeOf(double linear) const {
-    std::size_t code = first_[std::min(kSteps - 1, static_cast<std::size_t>(linear * kSteps))];
-    while (code < 255 && ends_[code] <= linear) ++code;
-    return static_cast<double>(code);
-  }
-
+/// The light of sRGB codes, and the codes of light.
+struct Srgb {
   std::array<double, 256> light{};
+  SrgbCodes codes{SrgbCodes::Halves::ToEven};
 
- private:
-  static constexpr std::size_t kSteps = 4096;
-  static constexpr double kTie = 1e-9;  ///< far above the rounding of doubles, in codes
-  std::array<double, 256> ends_{};      ///< where the next code is nearer
-  std::array<std::uint8_t, kSteps> first_{};
+  Srgb() {
+    for (std::size_t c = 0; c < light.size(); ++c) light[c] = srgbDecode(static_cast<double>(c) / 255.0);
+  }
 };
 
 /// The texels of a row or column that make one of the next level, and their weights, whole numbers: of an odd
@@ -76,7 +51,7 @@ struct Level {
 /// The mean of the texels under both taps, as codes that are not rounded yet.
 template <typename Code>
 std::array<double, 4> meanOf(const Level<Code>& from, const Taps& x, const Taps& y, Averaging averaging,
-                             const SrgbCodes& srgb) {
+                             const Srgb& srgb) {
   std::array<double, 4> sum{}, weighted{};
   double all = 0.0;
   for (int j = 0; j < y.count; ++j)
@@ -94,7 +69,7 @@ std::array<double, 4> meanOf(const Level<Code>& from, const Taps& x, const Taps&
   const bool byAlpha = averaging == Averaging::ColorsByAlpha && sum[3] > 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
     const double mean = byAlpha ? weighted[c] / sum[3] : sum[c] / all;
-    sum[c] = averaging == Averaging::Linear ? mean : srgb.codeOf(mean);
+    sum[c] = averaging == Averaging::Linear ? mean : srgb.codes.codeOf(mean);
   }
   sum[3] /= all;
   return sum;
@@ -103,7 +78,7 @@ std::array<double, 4> meanOf(const Level<Code>& from, const Taps& x, const Taps&
 template <typename Code>
 void eachLevelOf(const Image& image, std::span<const Code> texels, Averaging averaging,
                  const std::function<void(std::span<const std::byte>)>& write) {
-  static const SrgbCodes kSrgb;
+  static const Srgb kSrgb;
   Level<Code> from{image.width, image.height, texels};
   std::vector<Code> made, before;
   while (from.width > 1 || from.height > 1) {

@@ -14,12 +14,18 @@ namespace {
 using Names = std::vector<std::string>;
 
 /// A glowing triangle before a camera; for a second one of them moves sideways.
-std::string movingScene(bool camera) {
+std::string movingScene(bool camera, bool lamp = false) {
   GltfBuilder b;
   b.push("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
   const int material = b.material({{"emissiveFactor", {1, 0.5, 0.25}}});
   const int mesh = b.node({{"mesh", b.triangleMesh({{"material", material}})}});
   const int eye = b.node({{"camera", 0}, {"translation", {0, 0, 3}}});
+  if (lamp) {
+    b.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    b.json["extensions"]["KHR_lights_punctual"]["lights"] =
+        Json::array({{{"type", "point"}, {"intensity", 1e6}}});
+    b.node({{"translation", {2, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  }
   const int times = b.floats("SCALAR", 1, {0, 1});
   b.json["accessors"][times]["min"] = {0}, b.json["accessors"][times]["max"] = {1};
   const int places =
@@ -101,6 +107,22 @@ TEST(Frames, AnAddedCameraStays) {
   };
   EXPECT_TRUE(lit("f_0000.exr"));
   EXPECT_FALSE(lit("f_0001.exr"));
+}
+
+/// The ambient light that goes with a sky depends on how far a lamp is from what moves; a film keeps the
+/// first.
+TEST(Frames, AmbientLightIsThatOfTheFirst) {
+  const Folder folder;
+  write(folder / "moving.glb", movingScene(false, true));
+  const auto ambient = [&](const Names& options, const char* file) {
+    Names more{"--sky", "30,0", "--stats", "s.json"};
+    more.insert(more.end(), options.begin(), options.end());
+    EXPECT_EQ(runWhittle(small(more), {folder.path(), {}}).status, 0);
+    return readJson(folder / file)["settings"]["ambient"].get<double>();
+  };
+  const double first = ambient({"--frames", "0:1", "--fps", "1"}, "s_0000.json");
+  EXPECT_EQ(readJson(folder / "s_0001.json")["settings"]["ambient"].get<double>(), first);
+  EXPECT_NE(ambient({"--time", "1"}, "s.json"), first) << "or the test shows nothing";
 }
 
 TEST(Frames, NamesHaveTheirNumber) {

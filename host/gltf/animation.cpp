@@ -163,6 +163,7 @@ Posed poseNodes(Document& document, const std::optional<std::string>& wanted, do
   const auto& all = document.animationFacts;
   if (all.empty() && !wanted) return posed;
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const AnimationFacts& facts : all) names.push_back(facts.name);
   const std::size_t index = wanted ? indexCalled(document, "animation", names, *wanted) : 0;
   posed.animation = static_cast<int>(index);

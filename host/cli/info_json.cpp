@@ -69,6 +69,14 @@ Json animationsJson(const Scene& scene) {
   return animations;
 }
 
+Json unpackedJson(const Notices& notices) {
+  Json json = Json::array();
+  for (const auto& u : notices.unpacked)
+    json.push_back(
+        {{"extension", u.extension}, {"parts", u.parts}, {"packedBytes", u.packedBytes}, {"bytes", u.bytes}});
+  return json;
+}
+
 Json featuresJson(const SceneFeatures& features, const PruningReport& pruning) {
   Json json{{"used", Json::array()}, {"kept", Json::array()}, {"leftOut", Json::array()}};
   for (const auto& line : features.lines()) {
@@ -123,6 +131,7 @@ Json infoJson(const InfoReport& r) {
             {"bounds", boundsJson(scene)},
             {"lights", lightsJson(scene)},
             {"animations", animationsJson(scene)},
+            {"unpacked", unpackedJson(r.notices)},
             {"cameras", camerasJson(scene)},
             {"background", backgroundJson(scene.background)},
             {"sky", skyJson(scene.sky)},

@@ -92,6 +92,19 @@ std::string boundsText(const Places& places) {
   return "  " + wrapped(text, 78, 4) + "\n";
 }
 
+/// What of the file was compressed.
+std::string fileText(const Notices& n) {
+  std::string out;
+  for (const auto& u : n.unpacked)
+    out +=
+        "  " +
+        wrapped(fmt::format("compressed: {} of {}, {} that become {}", formatSome(u.parts, "part", "parts"),
+                            u.extension, formatBytes(u.packedBytes), formatBytes(u.bytes)),
+                78, 4) +
+        "\n";
+  return out;
+}
+
 std::string contents(const Scene& s) {
   std::string counts = formatSome(s.triangles.size(), "triangle", "triangles");
   if (s.droppedTriangles > 0) counts += fmt::format(" ({} dropped)", formatInteger(s.droppedTriangles));
@@ -202,8 +215,8 @@ std::string peakText(std::uint64_t bytes) {
 }  // namespace
 
 std::string infoText(const InfoReport& r) {
-  std::string out = printableLine(r.scene.file) + "\n\n" + contents(r.scene) + featuresText(r.features) +
-                    pruningText(r.pruning);
+  std::string out = printableLine(r.scene.file) + "\n\n" + contents(r.scene) + fileText(r.notices) +
+                    featuresText(r.features) + pruningText(r.pruning);
   out += "\nStages that will run\n  " + wrapped(fmt::format("{}", fmt::join(r.stages, ", ")), 78, 2) + "\n\n";
   if (r.plan) return out + buffersText(*r.plan) + peakText(r.peakBytes);
   return out + "Buffers\n  " + wrapped("unknown: " + r.planProblem, 78, 2) + "\n";

@@ -98,6 +98,11 @@ Run runIn(Document& document, int view, std::uint64_t offset, Run run, int acces
 Run baseRun(Document& document, int index) {
   const tinygltf::Accessor& a = accessorAt(document, index);
   Run run{nullptr, 0, a.count, componentCount(a), a.componentType, a.normalized};
+  if (const auto found = document.unpackedAccessors.find(index); found != document.unpackedAccessors.end()) {
+    run.stride = componentBytes(a.componentType) * static_cast<std::uint64_t>(run.components);
+    run.data = found->second.data();
+    return run;
+  }
   if (a.bufferView >= 0) {
     run.stride = document.model.bufferViews[static_cast<std::size_t>(a.bufferView)].byteStride;
     return runIn(document, a.bufferView, a.byteOffset, run, index);

@@ -10,29 +10,15 @@
 #include "gltf/animation.h"
 #include "gltf/check.h"
 #include "gltf/container.h"
+#include "gltf/extensions.h"
 #include "gltf/json_cost.h"
-#include "gltf/shapes.h"
+#include "gltf/packed_views.h"
 #include "gltf/uri.h"
 #include "scene/input_error.h"
 
 namespace whittle::gltf {
 
 namespace {
-
-/// Every extension with properties of its own is among the shapes; quantization has none.
-bool isSupported(std::string_view extensionName) {
-  return extensionName == "KHR_mesh_quantization" || readsExtension(extensionName);
-}
-
-/// One line of printable text: control characters and line ends become spaces.
-std::string oneLine(std::string_view text) {
-  std::string line(text);
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  while (!line.empty() && line.back() == ' ') line.pop_back();
-  return line;
-}
 
 /// Before anything else is checked: in glTF 1.0 nearly every property has another type.
 void checkVersion(const Document& document, const Json& json) {
@@ -53,29 +39,6 @@ void checkVersion(const Document& document, const Json& json) {
                                 quotedName(version)));
     }
   }
-}
-
-std::string listOf(const Json& names, bool (*wanted)(std::string_view)) {
-  std::string list;
-  for (const Json& name : names) {
-    const auto text = name.get<std::string>();
-    if (!wanted(text)) continue;
-    if (!list.empty()) list += ", ";
-    list += text.substr(0, 60);
-    if (list.size() > 200) return list + ", …";
-  }
-  return list;
-}
-
-void checkExtensions(const Document& document, Notices& notices) {
-  const auto unsupported = [](std::string_view extensionName) { return !isSupported(extensionName); };
-  const std::string required = listOf(child(document.json, "extensionsRequired"), unsupported);
-  if (!required.empty()) {
-    document.fail(
-        fmt::format("needs {}, which Whittle does not read (extensionsRequired)", oneLine(required)));
-  }
-  const std::string used = listOf(child(document.json, "extensionsUsed"), unsupported);
-  if (!used.empty()) notices.note(fmt::format("extensions not read: {}", oneLine(used)));
 }
 
 /// tinygltf refuses index accessors without a buffer view, which are legal (zeros, or sparse values over
@@ -191,6 +154,15 @@ std::uint64_t bytesOf(const std::vector<Node>& nodes) {
 
 }  // namespace
 
+std::string oneLine(std::string_view text) {
+  std::string line(text);
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line;
+}
+
 void Document::fail(std::string_view what) const {
   constexpr std::size_t kLongest = 390;  // bytes, so that a line stays a line on any terminal
   std::string line = fmt::format("{}: {}", oneLine(name), oneLine(what));
@@ -252,11 +224,16 @@ void openDocument(Document& document, const std::filesystem::path& path, Notices
 
 std::span<const std::byte> viewData(Document& document, int view) {
   const tinygltf::BufferView& v = document.model.bufferViews[static_cast<std::size_t>(view)];
-  const auto data = bufferData(document, v.buffer);
-  if (v.byteOffset > data.size() || v.byteLength > data.size() - v.byteOffset) {
-    document.fail(fmt::format("bufferViews[{}] reaches beyond buffer {}", view, v.buffer));
-  }
-  return data.subspan(v.byteOffset, v.byteLength);
+  if (const auto unpacked = unpackedView(document, view)) return *unpacked;
+  return bytesOfBuffer(document, v.buffer, v.byteOffset, v.byteLength, fmt::format("bufferViews[{}]", view));
+}
+
+std::span<const std::byte> bytesOfBuffer(Document& document, int buffer, std::uint64_t offset,
+                                         std::uint64_t length, std::string_view label) {
+  const auto data = bufferData(document, buffer);
+  if (offset > data.size() || length > data.size() - offset)
+    document.fail(fmt::format("{} reaches beyond buffer {}", label, buffer));
+  return data.subspan(offset, length);
 }
 
 namespace {

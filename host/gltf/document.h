@@ -50,6 +50,8 @@ struct Document {
     bool isRead = false;
   };
   std::unordered_map<std::string_view, UriData> buffers;  ///< by URI, as `json` has it
+  std::unordered_map<int, Bytes> unpackedViews;           ///< compressed buffer views, see packed_views.h
+  std::unordered_map<int, Bytes> unpackedAccessors;  ///< whose values were compressed, see packed_meshes.h
 
   Notices* notices = nullptr;                  ///< never null once the file is opened
   MemoryBudget* budget = nullptr;              ///< never null
@@ -85,8 +87,12 @@ inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
 /// Reads, splits, parses and checks `path`. Throws InputError; notes what is not supported and not required.
 void openDocument(Document& document, const std::filesystem::path& path, Notices& notices);
 
-/// The bytes of a buffer view, checked against its buffer. Throws InputError.
+/// The bytes of a buffer view, unpacked where they are compressed, checked against its buffer. Throws
+/// InputError.
 std::span<const std::byte> viewData(Document& document, int view);
+/// Bytes of a buffer as it is; `label` asks for them. Throws InputError.
+std::span<const std::byte> bytesOfBuffer(Document& document, int buffer, std::uint64_t offset,
+                                         std::uint64_t length, std::string_view label);
 
 /// The file that the URI of a buffer or an image means. Warns of names that only nearly fit, and remembers
 /// those outside the folder of the scene: links are followed. Throws InputError for them where it is
@@ -103,6 +109,8 @@ const Json* extension(const Json& object, const char* name);
 /// A number, or `fallback` where it is absent.
 double number(const Json& object, const char* key, double fallback);
 
+/// One line of printable text: control characters and line ends become spaces.
+std::string oneLine(std::string_view text);
 /// ` "name"` for messages, shortened, control characters replaced; nothing for an empty name.
 std::string quotedName(std::string_view name);
 

@@ -23,6 +23,7 @@ constexpr Attribute kAttributes[]{
 double countOf(const Document& document, int index) {
   const tinygltf::Accessor& a = accessorAt(document, index);
   auto count = static_cast<double>(a.count);
+  if (document.unpackedAccessors.contains(index)) return count;
   if (a.bufferView < 0) return std::min(count, static_cast<double>(kMostZeros));
   const tinygltf::BufferView& v = document.model.bufferViews[at(a.bufferView)];
   return std::min(count, static_cast<double>(v.byteLength));

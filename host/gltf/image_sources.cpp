@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "gltf/uri.h"
+#include "image/image_io.h"
 #include "scene/input_error.h"
 
 namespace whittle::gltf {
@@ -27,6 +28,16 @@ void collectTextures(const Json& object, std::set<std::size_t>& textures) {
 }
 
 }  // namespace
+
+int imageOf(const Document& document, std::size_t texture) {
+  const int plain = document.model.textures[texture].source;
+  const Json* const webp = extension(document.json["textures"][texture], "EXT_texture_webp");
+  if (!webp || !webp->is_object()) return plain;
+  const Json& source = child(*webp, "source");
+  if (!source.is_number_unsigned() || source.get<std::uint64_t>() >= child(document.json, "images").size())
+    return plain;
+  return plain < 0 || canDecodeWebp() ? source.get<int>() : plain;
+}
 
 ImageSources::ImageSources(Document& document) : document_(document) {
   const Json& images = child(document.json, "images");
@@ -78,8 +89,7 @@ void ImageSources::hold(const std::set<int>& materials) {
   for (const int material : materials)
     if (material >= 0) collectTextures(document_.json["materials"][at(material)], textures);
   for (const std::size_t texture : textures)
-    if (const int source = document_.model.textures[texture].source; source >= 0)
-      images.insert(first_[at(source)]);
+    if (const int source = imageOf(document_, texture); source >= 0) images.insert(first_[at(source)]);
   std::uint64_t pixels = 0, bytes = 0, decoder = 0;
   for (const std::size_t image : images) {
     const auto found = header(image);

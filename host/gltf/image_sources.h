@@ -12,6 +12,10 @@
 
 namespace whittle::gltf {
 
+/// The image that a texture shows: of EXT_texture_webp where there is one and it can be decoded, else the
+/// plain one; -1: none.
+int imageOf(const Document& document, std::size_t texture);
+
 class ImageSources {
  public:
   explicit ImageSources(Document& document);

@@ -16,6 +16,7 @@
 #include "gltf/material.h"
 #include "gltf/mesh.h"
 #include "gltf/nodes.h"
+#include "gltf/packed_meshes.h"
 #include "scene/machine_memory.h"
 
 namespace whittle {
@@ -188,6 +189,7 @@ void load(Document& document, const LoadOptions& options, Scene& scene, Notices&
   std::vector<bool> moved = pose(document, options, scene, notices);
   Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
   scene.meshesMove = moveMeshes(document, hierarchy, std::move(moved));
+  unpackMeshes(document, hierarchy);
   const GeometrySums sums = holdGeometry(document, hierarchy, options.laterTriangleBytes);
   settlePlace(document, hierarchy, notices);
   scene.origin = hierarchy.origin;

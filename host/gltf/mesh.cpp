@@ -40,9 +40,7 @@ class PrimitiveReader {
                        .primitives[static_cast<std::size_t>(primitive)]),
         weights_(weights),
         notices_(notices),
-        label_(fmt::format("meshes[{}]{} primitive {}", mesh,
-                           quotedName(document.model.meshes[static_cast<std::size_t>(mesh)].name),
-                           primitive)) {}
+        label_(primitiveLabel(document, mesh, primitive)) {}
 
   LocalMesh read(const Material& material, bool isSkinned) {
     LocalMesh mesh;
@@ -220,6 +218,11 @@ Needs needsOf(const Material& material) {
   read(material.occlusionTexture);
   needs.tangents = material.normalTexture.used();
   return needs;
+}
+
+std::string primitiveLabel(const Document& document, int mesh, int primitive) {
+  return fmt::format("meshes[{}]{} primitive {}", mesh, quotedName(document.model.meshes[at(mesh)].name),
+                     primitive);
 }
 
 bool isDrawable(const tinygltf::Primitive& primitive) {

@@ -30,6 +30,9 @@ struct Needs {
 };
 Needs needsOf(const Material& material);
 
+/// `meshes[2] "name" primitive 0` for messages.
+std::string primitiveLabel(const Document& document, int mesh, int primitive);
+
 /// True for triangles, strips and fans that have positions.
 bool isDrawable(const tinygltf::Primitive& primitive);
 

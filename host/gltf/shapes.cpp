@@ -59,8 +59,18 @@ constexpr std::array kMinFilters{9728, 9729, 9984, 9985, 9986, 9987};
 
 constexpr std::array kAsset{required(text("version")), text("minVersion")};
 constexpr std::array kBuffer{required(size("byteLength")), text("uri")};
+constexpr std::array kMeshopt{required(index("buffer", "buffers")),
+                              size("byteOffset"),
+                              required(size("byteLength")),
+                              required(size("byteStride")),
+                              required(size("count")),
+                              required(text("mode")),
+                              text("filter")};
+constexpr std::array kViewExtensions{object("EXT_meshopt_compression", kMeshopt),
+                                     object("KHR_meshopt_compression", kMeshopt)};
 constexpr std::array kView{required(index("buffer", "buffers")), size("byteOffset"),
-                           required(size("byteLength")), size("byteStride")};
+                           required(size("byteLength")), size("byteStride"),
+                           object("extensions", kViewExtensions)};
 constexpr std::array kSparseIndices{required(index("bufferView", "bufferViews")), smallSize("byteOffset"),
                                     required(code("componentType", kIndexTypes))};
 constexpr std::array kSparseValues{required(index("bufferView", "bufferViews")), smallSize("byteOffset")};
@@ -73,10 +83,15 @@ constexpr std::array kAccessor{index("bufferView", "bufferViews"),
                                required(size("count")),
                                required(text("type")),
                                object("sparse", kSparse)};
+constexpr std::array kDracoPrimitive{required(index("bufferView", "bufferViews")),
+                                     required(Field{"attributes", Kind::Map})};
+constexpr std::array kPrimitiveExtensions{object("KHR_draco_mesh_compression", kDracoPrimitive)};
 constexpr std::array kPrimitive{required(Field{"attributes", Kind::Map, "accessors"}),
                                 forgiven(index("indices", "accessors")),
-                                forgiven(index("material", "materials")), code("mode", kModes),
-                                Field{"targets", Kind::Maps, "accessors"}};
+                                forgiven(index("material", "materials")),
+                                code("mode", kModes),
+                                Field{"targets", Kind::Maps, "accessors"},
+                                object("extensions", kPrimitiveExtensions)};
 constexpr std::array kMesh{required(objects("primitives", kPrimitive)), nums("weights", 0),
                            forgiven(text("name"))};
 constexpr std::array kInstancing{required(Field{"attributes", Kind::Map, "accessors"})};

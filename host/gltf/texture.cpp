@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "gltf/container.h"
+#include "gltf/extensions.h"
 #include "gltf/uri.h"
 #include "image/image_io.h"
 #include "scene/free_array.h"
@@ -35,6 +36,11 @@ std::array<float, 6> transformOf(const Json& t) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {static_cast<float>(c * scale.x),  static_cast<float>(s * scale.y), static_cast<float>(offset.x),
           static_cast<float>(-s * scale.x), static_cast<float>(c * scale.y), static_cast<float>(offset.y)};
+}
+
+std::string conversionHint(std::string_view extensionName) {
+  const auto command = conversionOf(extensionName);
+  return command ? fmt::format(" ({})", *command) : "";
 }
 
 /// A picture on disk. OpenImageIO takes what stands behind '?' in a name for arguments: such a file
@@ -83,23 +89,23 @@ TextureSlot TextureReader::slot(const Json& owner, const char* key) {
     // do not care, and nobody wants the shimmer that it stands for.
     slot.hasLevels = s.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
   }
-  slot.image = imageOf(texture);
+  slot.image = imageAt(texture);
   return slot;
 }
 
-int TextureReader::imageOf(std::size_t texture) {
-  const int source = document_.model.textures[texture].source;
+int TextureReader::imageAt(std::size_t texture) {
+  const int source = imageOf(document_, texture);
   if (source >= 0) return decode(static_cast<std::size_t>(source));
-  if (!sourceless_[texture]) {
-    sourceless_[texture] = true;
-    const Json& extensions = child(document_.json["textures"][texture], "extensions");
-    const std::string kind = extensions.is_object() && !extensions.empty() ? extensions.begin().key() : "";
-    notices_.warn(kind.empty()
-                      ? fmt::format("texture {} has no image; it is left out", texture)
-                      : fmt::format("texture {} has an image for{} only, which Whittle does not read; it is "
-                                    "left out",
-                                    texture, quotedName(kind)));
-  }
+  if (sourceless_[texture]) return -1;
+  sourceless_[texture] = true;
+  const Json& extensions = child(document_.json["textures"][texture], "extensions");
+  const std::string kind = extensions.is_object() && !extensions.empty() ? extensions.begin().key() : "";
+  if (kind.empty())
+    notices_.warn(fmt::format("texture {} has no image; it is left out", texture));
+  else
+    notices_.warn(
+        fmt::format("texture {} has an image for{} only, which Whittle does not read; it is left out{}",
+                    texture, quotedName(kind), conversionHint(kind)));
   return -1;
 }
 

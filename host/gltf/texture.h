@@ -22,7 +22,7 @@ class TextureReader {
   void dropUnreadTexels();
 
  private:
-  int imageOf(std::size_t texture);
+  int imageAt(std::size_t texture);
   int decode(std::size_t asked);
   Image read(std::size_t image);
 

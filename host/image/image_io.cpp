@@ -12,6 +12,7 @@
 #include "image/exr_header.h"
 #include "image/image_codec.h"
 #include "image/radiance_file.h"
+#include "image/webp.h"
 #include "scene/input_error.h"
 #include "scene/own_library.h"
 #include "scene/whole_file.h"
@@ -47,20 +48,22 @@ std::string imageFormatOf(const fs::path& path) {
   return {};
 }
 
-/// All of the file, where it is one of Radiance's; what cannot be read is left to the codec, which says why.
-std::optional<std::vector<std::byte>> radianceBytes(const fs::path& path) {
+/// All of the file, where `isFormat` knows its first `start` bytes; what cannot be read is left to the codec,
+/// which says why.
+std::optional<std::vector<std::byte>> bytesOf(const fs::path& path, std::size_t start,
+                                              bool (*isFormat)(std::span<const std::byte>)) {
   std::error_code error;
   std::ifstream file(path, std::ios::binary);
-  std::vector<std::byte> bytes(2);
+  std::vector<std::byte> bytes(start);
   const auto readTo = [&](std::size_t from) {
     return static_cast<bool>(file.read(reinterpret_cast<char*>(bytes.data() + from),
                                        static_cast<std::streamsize>(bytes.size() - from)));
   };
-  if (!readTo(0) || !isRadianceFile(bytes)) return std::nullopt;
+  if (!readTo(0) || !isFormat(bytes)) return std::nullopt;
   const auto size = fs::file_size(path, error);
   if (error || size < bytes.size()) return std::nullopt;
   bytes.resize(size);
-  if (!readTo(2)) throw InputError(fmt::format("{}: cannot be read", path.string()));
+  if (!readTo(start)) throw InputError(fmt::format("{}: cannot be read", path.string()));
   return bytes;
 }
 
@@ -132,11 +135,13 @@ FloatImage joined(const std::vector<const FloatImage*>& images) {
 void loadImageCodec() { codec(); }
 
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name) {
+  if (isWebp(bytes)) return decodeWebp(bytes, name);
   return codec().decodeImage(bytes, name);
 }
 
 Image readImage(const fs::path& path) {
   refuseStreams(path);
+  if (const auto bytes = bytesOf(path, kWebpStart, isWebp)) return decodeWebp(*bytes, path.string());
   refuseDamagedExr(path);
   return codec().readImage(path);
 }
@@ -148,7 +153,7 @@ ImageHeader readImageHeader(const fs::path& path) {
 
 FloatImage readFloatImage(const fs::path& path) {
   refuseStreams(path);
-  if (const auto bytes = radianceBytes(path)) return decodeRadiance(*bytes, path.string());
+  if (const auto bytes = bytesOf(path, 2, isRadianceFile)) return decodeRadiance(*bytes, path.string());
   refuseDamagedExr(path);
   return codec().readFloatImage(path);
 }

@@ -46,6 +46,9 @@ FloatImage joined(const std::vector<const FloatImage*>& images);
 /// std::runtime_error where its library is missing, as do all functions below that need it.
 void loadImageCodec();
 
+/// Whether this build has what decodes WebP: a library that is loaded now.
+bool canDecodeWebp();
+
 /// Decodes a PNG/JPEG/… held in memory (a texture inside a .glb) to 8-bit RGBA, and beside it to 16-bit RGBA
 /// where the file holds more than 8 bits tell. Throws InputError naming `name`.
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name);

@@ -121,8 +121,8 @@ TEST(GltfFile, NotAUsableFile) {
   expectError(R"({"asset": {"version": "2.0"}, "scene": 1e999})", "JSON cannot be read");
   expectError("{\"asset\": {\"version\": \"2.0\"}, \"x\": " + std::string(1000000, '['), "nested deeper");
   expectError("version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "git-lfs");
-  expectError(R"({"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_draco_mesh_compression"]})",
-              "needs KHR_draco_mesh_compression");
+  expectError(R"({"asset": {"version": "2.0"}, "extensionsRequired": ["EXT_structural_metadata"]})",
+              "needs EXT_structural_metadata");
   expectError(
       R"({"asset": {"version": "2.0"}, "extensionsRequired": ["X\n)" + std::string(5000, 'y') + "\"]}",
       "needs X ");

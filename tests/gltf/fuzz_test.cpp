@@ -15,7 +15,7 @@ using test::GltfBuilder;
 using test::Json;
 
 /// An animation, a skin, a morph target, sparse values, instances, a texture with transform and sampler,
-/// lights, cameras.
+/// lights, cameras, other images of textures.
 GltfBuilder everything() {
   GltfBuilder b;
   b.json["extensionsUsed"] = {"KHR_texture_transform", "EXT_mesh_gpu_instancing", "KHR_lights_punctual"};
@@ -72,6 +72,7 @@ GltfBuilder everything() {
                              {"COLOR_0", colours},
                              {"JOINTS_0", joints},
                              {"WEIGHTS_0", weights}}}}}}});
+  b.json["textures"][1]["extensions"]["EXT_texture_webp"]["source"] = 2;
   std::vector<float> identity(16, 0.0F);
   for (std::size_t i = 0; i < 16; i += 5) identity[i] = 1.0F;
   b.push("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});

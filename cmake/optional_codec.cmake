@@ -1,0 +1,17 @@
+# optional_codec(NAME OWNER SOURCE HEADER LIBRARY): SOURCE as the library libwhittle_NAME.so, built with OWNER and installed
+# beside the image codec, where HEADER and LIBRARY are found; then WHITTLE_NAME_FOUND is set.
+function(optional_codec name owner source header library)
+  find_path(${name}_INCLUDE ${header})
+  find_library(${name}_LIBRARY ${library})
+  if(NOT ${name}_INCLUDE OR NOT ${name}_LIBRARY)
+    message(STATUS "lib${library} is not there: files that need it will be refused")
+    return()
+  endif()
+  set(WHITTLE_${name}_FOUND TRUE PARENT_SCOPE)
+  add_library(whittle_${name} MODULE ${source})
+  target_include_directories(whittle_${name} SYSTEM PRIVATE ${${name}_INCLUDE})
+  target_link_libraries(whittle_${name} PRIVATE whittle_flags glm::glm fmt::fmt ${${name}_LIBRARY})
+  set_target_properties(whittle_${name} PROPERTIES CXX_VISIBILITY_PRESET hidden)
+  add_dependencies(${owner} whittle_${name})
+  install(TARGETS whittle_${name} LIBRARY DESTINATION lib/whittle)
+endfunction()

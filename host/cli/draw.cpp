@@ -79,6 +79,7 @@ std::string statsText(const RenderOptions& o, const Stats& stats) {
   s["background"] = path(o.scene.background);
   s["time"] = o.scene.time ? nlohmann::ordered_json(*o.scene.time) : nlohmann::ordered_json(nullptr);
   s["animation"] = path(o.scene.animation);
+  s["variant"] = path(o.scene.variant);
   s["defaultLights"] = o.scene.defaultLights.value_or(false);
   s["output"] = nlohmann::ordered_json::array();
   for (const auto& file : o.outputs) s["output"].push_back(file.string());

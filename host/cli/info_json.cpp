@@ -131,6 +131,7 @@ Json infoJson(const InfoReport& r) {
             {"bounds", boundsJson(scene)},
             {"lights", lightsJson(scene)},
             {"animations", animationsJson(scene)},
+            {"variants", r.notices.variants},
             {"unpacked", unpackedJson(r.notices)},
             {"cameras", camerasJson(scene)},
             {"background", backgroundJson(scene.background)},

@@ -92,9 +92,19 @@ std::string boundsText(const Places& places) {
   return "  " + wrapped(text, 78, 4) + "\n";
 }
 
-/// What of the file was compressed.
+/// What the file offers to choose, and what of it was compressed.
 std::string fileText(const Notices& n) {
+  constexpr std::size_t kShown = 20;
   std::string out;
+  if (!n.variants.empty())
+    out +=
+        fmt::format("  {}, --variant NAME shows one\n",
+                    formatSome(n.variants.size(), "variant of the materials", "variants of the materials"));
+  for (std::size_t i = 0; i < std::min(n.variants.size(), kShown); ++i)
+    out += fmt::format("    {:>2}  {}\n", i, shownName(n.variants[i]));
+  if (n.variants.size() > kShown)
+    out +=
+        fmt::format("    … and {} more (--json has them all)\n", formatInteger(n.variants.size() - kShown));
   for (const auto& u : n.unpacked)
     out +=
         "  " +

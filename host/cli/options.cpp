@@ -51,6 +51,8 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
   addText(c, "--animation", [&o](const std::string& v) { o.animation = v; },
           {"NAME|INDEX", "which animation of the file is shown at --time; without that, its beginning",
            "the first"});
+  addText(c, "--variant", [&o](const std::string& v) { o.variant = v; },
+          {"NAME|INDEX", "which variant of the materials (KHR_materials_variants); info lists them", "none"});
   addText(
       c, "--time", [&o](const std::string& v) { o.time = parseReal("--time", v, 0, kLongestTime); },
       {"SECONDS", "show nodes, skins and morph targets as the animation has them then", "as the file rests"});
@@ -354,6 +356,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   if (!options.scene.empty()) load.sceneName = options.scene;
   load.time = options.time;
   if (!options.animation.empty()) load.animation = options.animation;
+  if (!options.variant.empty()) load.variant = options.variant;
   load.defaultLights = options.defaultLights;
   if ((settings.areaLights || settings.skyLight) && !load.defaultLights) load.defaultLights = false;
   load.confined = options.confined;

@@ -27,6 +27,7 @@ struct SceneOptions {
   bool quiet = false;
   std::optional<double> time;         ///< seconds, see LoadOptions
   std::string animation;              ///< name or index; empty: the first
+  std::string variant;                ///< of the materials: name or index; empty: none
   bool isAgain = false;               ///< the same file was loaded before: what it noticed was said then
   std::optional<MemoryLimit> memory;  ///< unset: what the machine has
   ViewpointOptions view;

@@ -57,8 +57,11 @@ class Checker {
       if (field.kind == Kind::Objects && root.contains(field.key))
         counts_[field.key] = root[field.key].size();
     }
-    const auto lights = Json::json_pointer("/extensions/KHR_lights_punctual/lights");
-    if (root.contains(lights)) counts_["lights"] = root[lights].size();
+    for (const auto& [key, place] : {std::pair{"lights", "/extensions/KHR_lights_punctual/lights"},
+                                     std::pair{"variants", "/extensions/KHR_materials_variants/variants"}}) {
+      const Json::json_pointer list(place);
+      if (root.contains(list)) counts_[key] = root[list].size();
+    }
   }
 
   /// Of a part of the file that is read later, when there are nodes and accessors.

@@ -114,9 +114,8 @@ std::optional<Light> readLight(const Json& json, std::size_t index, Notices& not
 
 void readCameras(const Document& document, const Hierarchy& hierarchy, Scene& scene, Notices& notices) {
   std::vector<std::pair<int, Camera>> found;
-  for (const int node : hierarchy.shown) {
+  for (const int node : hierarchy.cameras) {
     const int index = document.nodes[at(node)].camera;
-    if (index < 0) continue;
     Camera camera;
     const tinygltf::Camera& lens = document.model.cameras[at(index)];
     if (!readLens(lens, camera) || !placeCamera(hierarchy.toWorld[at(node)], camera)) {

@@ -17,6 +17,7 @@
 #include "gltf/mesh.h"
 #include "gltf/nodes.h"
 #include "gltf/packed_meshes.h"
+#include "gltf/variants.h"
 #include "scene/machine_memory.h"
 
 namespace whittle {
@@ -188,6 +189,7 @@ void readSky(const Document& document, int sceneIndex, Scene& scene, Notices& no
 void load(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
   std::vector<bool> moved = pose(document, options, scene, notices);
   Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
+  applyVariant(document, options.variant);
   scene.meshesMove = moveMeshes(document, hierarchy, std::move(moved));
   unpackMeshes(document, hierarchy);
   const GeometrySums sums = holdGeometry(document, hierarchy, options.laterTriangleBytes);

@@ -23,6 +23,7 @@ struct LoadOptions {
   std::optional<Viewpoint> viewpoint = {};  ///< a camera by hand, in the place of the file's
   std::optional<double> time = {};  ///< seconds: nodes as an animation has them; unset: as the file rests
   std::optional<std::string> animation = {};  ///< its name or index; unset: the first
+  std::optional<std::string> variant = {};    ///< of its materials: name or index; unset: none
   bool confined = false;                      ///< refuse a file that asks for others outside its folder
   /// Width over height of the picture that an added camera frames the scene for; 0: 16:9.
   double aspect = 0.0;

@@ -55,6 +55,7 @@ Node nodeFrom(const Json& checked, bool keepParts) {
   node.skin = indexIn(checked, "skin");
   node.camera = indexIn(checked, "camera");
   if (const Json* light = extension(checked, "KHR_lights_punctual")) node.light = indexIn(*light, "light");
+  if (const Json* e = extension(checked, "KHR_node_visibility")) node.isVisible = e->value("visible", true);
   if (const auto found = checked.find("children"); found != checked.end())
     node.children = found->get<std::vector<int>>();
   node.local = localTransform(checked);

@@ -16,6 +16,7 @@ struct Node {
   int mesh = -1, skin = -1, camera = -1;
   int light = -1;                     ///< KHR_lights_punctual
   std::vector<int> children;          ///< in file order
+  bool isVisible = true;              ///< KHR_node_visibility; false: nor is what hangs on it
   std::unique_ptr<glm::dmat4> local;  ///< to the parent; null: the identity
 
   /// What animations move one by one.

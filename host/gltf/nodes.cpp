@@ -105,6 +105,17 @@ int chooseScene(const Document& document, const std::optional<std::string>& want
   return 0;
 }
 
+/// By node: it or one above it is not visible.
+std::vector<bool> hiddenNodes(const Document& document, const Parents& parents,
+                              const std::vector<int>& roots) {
+  std::vector<bool> isHidden(parents.size());
+  walk(document.nodes, roots, [&](int node) {
+    isHidden[at(node)] =
+        !document.nodes[at(node)].isVisible || (parents[at(node)] >= 0 && isHidden[at(parents[at(node)])]);
+  });
+  return isHidden;
+}
+
 /// `listed`, what a scene names as its roots, without those that another one of them brings along. glTF wants
 /// roots only, but files name children too, and other readers show them. Such a node is drawn as the child
 /// that it is: its transform is that of its place below its parents, whoever names it (glTF 2.0, 3.5.2), and
@@ -154,7 +165,11 @@ Hierarchy readHierarchy(Document& document, const std::optional<std::string>& sc
       hierarchy.scene < 0
           ? allRoots
           : distinctRoots(document, parents, allRoots, model.scenes[at(hierarchy.scene)].nodes, notices);
-  walk(document.nodes, roots, [&](int node) { hierarchy.shown.push_back(node); });
+  const std::vector<bool> isHidden = hiddenNodes(document, parents, allRoots);
+  walk(document.nodes, roots, [&](int node) {
+    if (document.nodes[at(node)].camera >= 0) hierarchy.cameras.push_back(node);
+    if (!isHidden[at(node)]) hierarchy.shown.push_back(node);
+  });
   return hierarchy;
 }
 

@@ -85,7 +85,11 @@ constexpr std::array kAccessor{index("bufferView", "bufferViews"),
                                object("sparse", kSparse)};
 constexpr std::array kDracoPrimitive{required(index("bufferView", "bufferViews")),
                                      required(Field{"attributes", Kind::Map})};
-constexpr std::array kPrimitiveExtensions{object("KHR_draco_mesh_compression", kDracoPrimitive)};
+constexpr std::array kVariantMapping{required(index("material", "materials")),
+                                     required(indices("variants", "variants"))};
+constexpr std::array kVariantMappings{required(objects("mappings", kVariantMapping))};
+constexpr std::array kPrimitiveExtensions{object("KHR_draco_mesh_compression", kDracoPrimitive),
+                                          forgiven(object("KHR_materials_variants", kVariantMappings))};
 constexpr std::array kPrimitive{required(Field{"attributes", Kind::Map, "accessors"}),
                                 forgiven(index("indices", "accessors")),
                                 forgiven(index("material", "materials")),
@@ -96,7 +100,9 @@ constexpr std::array kMesh{required(objects("primitives", kPrimitive)), nums("we
                            forgiven(text("name"))};
 constexpr std::array kInstancing{required(Field{"attributes", Kind::Map, "accessors"})};
 constexpr std::array kNodeLight{required(index("light", "lights"))};
+constexpr auto kVisibility = forgiving(std::array{flag("visible")});
 constexpr std::array kNodeExtensions{forgiven(object("KHR_lights_punctual", kNodeLight)),
+                                     forgiven(object("KHR_node_visibility", kVisibility)),
                                      object("EXT_mesh_gpu_instancing", kInstancing)};
 constexpr std::array kNode{forgiven(text("name")),
                            indices("children", "nodes"),
@@ -124,7 +130,10 @@ constexpr auto kLight =
     forgiving(std::array{text("name"), required(text("type")), nums("color", 3), num("intensity"),
                          num("range"), object("spot", kSpot), raw("extras")});
 constexpr std::array kLights{required(objects("lights", kLight))};
-constexpr std::array kRootExtensions{object("KHR_lights_punctual", kLights)};
+constexpr auto kVariant = forgiving(std::array{text("name")});
+constexpr std::array kVariants{required(objects("variants", kVariant))};
+constexpr std::array kRootExtensions{object("KHR_lights_punctual", kLights),
+                                     object("KHR_materials_variants", kVariants)};
 
 constexpr auto kSampler = forgiving(std::array{code("magFilter", kMagFilters), code("minFilter", kMinFilters),
                                                code("wrapS", kWraps), code("wrapT", kWraps)});

@@ -17,6 +17,7 @@ struct Notices {
   std::vector<std::string> warnings;
   std::vector<std::string> notes;
   std::vector<std::filesystem::path> files;  ///< that the scene's file asked for, besides itself
+  std::vector<std::string> variants;         ///< of its materials, by name, which may be empty
 
   /// What was compressed in the file.
   struct Unpacked {

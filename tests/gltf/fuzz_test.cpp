@@ -15,7 +15,7 @@ using test::GltfBuilder;
 using test::Json;
 
 /// An animation, a skin, a morph target, sparse values, instances, a texture with transform and sampler,
-/// lights, cameras, other images of textures.
+/// lights, cameras, variants, other images of textures, visibility.
 GltfBuilder everything() {
   GltfBuilder b;
   b.json["extensionsUsed"] = {"KHR_texture_transform", "EXT_mesh_gpu_instancing", "KHR_lights_punctual"};
@@ -72,6 +72,10 @@ GltfBuilder everything() {
                              {"COLOR_0", colours},
                              {"JOINTS_0", joints},
                              {"WEIGHTS_0", weights}}}}}}});
+  b.json["extensions"]["KHR_materials_variants"]["variants"] = Json::array({{{"name", "v"}}});
+  b.material({{"name", "other"}});
+  b.json["meshes"][mesh]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] =
+      Json::array({{{"material", 1}, {"variants", {0}}}});
   b.json["textures"][1]["extensions"]["EXT_texture_webp"]["source"] = 2;
   std::vector<float> identity(16, 0.0F);
   for (std::size_t i = 0; i < 16; i += 5) identity[i] = 1.0F;
@@ -102,6 +106,8 @@ GltfBuilder everything() {
            {{{"sampler", 0}, {"target", {{"node", joint}, {"path", "translation"}}}},
             {{"sampler", 1}, {"target", {{"node", joint}, {"path", "rotation"}}}},
             {{"sampler", 2}, {"target", {{"node", joint + 1}, {"path", "weights"}}}}}}});
+  b.node({{"mesh", b.triangleMesh({{"material", 1}})},
+          {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}});
   b.json["scenes"][0]["extras"]["whittle"]["background"] = {1, 1, 1};
   b.json["buffers"] = Json::array({{{"byteLength", b.binary.size()}}});
   return b;
@@ -137,7 +143,7 @@ bool loadsOrSays(const test::TemporaryFolder& folder, const std::string& content
 TEST(GltfFuzz, TheFileItselfIsFine) {
   GltfBuilder b = everything();
   const Scene scene = b.load();
-  EXPECT_EQ(scene.triangles.size(), 3U);
+  EXPECT_EQ(scene.triangles.size(), 4U);
   EXPECT_EQ(scene.lights.size(), 1U);
   EXPECT_EQ(scene.cameras.size(), 2U);
 }

@@ -271,7 +271,27 @@ class Editor {
     return materials.back();
   }
 
+  /// Of KHR_materials_pbrSpecularGlossiness: what a dielectric of ior 0 and a roughness cannot say is
+  /// refused.
+  void editSpecularGlossiness(const Material& before, const Material& after, Ordered& json, Ordered& e) {
+    const bool hasTexture = after.metallicRoughnessTexture.used();
+    if (before.metallic != after.metallic || before.transmission != after.transmission ||
+        before.ior != after.ior || (before.roughness != after.roughness && hasTexture))
+      document_.fail(fmt::format(
+          "the material{} is of KHR_materials_pbrSpecularGlossiness, which has no {}", quotedName(after.name),
+          before.roughness != after.roughness ? "factor of the roughness in its texture"
+                                              : "metallic, transmission or ior"));
+    if (before.baseColor != after.baseColor) e["diffuseFactor"] = listOf(after.baseColor);
+    if (before.roughness != after.roughness)
+      e["glossinessFactor"] = 1.0 - static_cast<double>(after.roughness);
+    if (before.emission != after.emission) writeEmission(after.emission, json);
+  }
+
   void editMaterial(const Material& before, const Material& after, Ordered& json) {
+    if (const auto found = json.find("extensions"); found != json.end() && found->is_object())
+      if (const auto e = found->find("KHR_materials_pbrSpecularGlossiness");
+          e != found->end() && e->is_object())
+        return editSpecularGlossiness(before, after, json, *e);
     const auto pbr = [&]() -> Ordered& { return objectIn(json, "pbrMetallicRoughness"); };
     if (before.baseColor != after.baseColor) pbr()["baseColorFactor"] = listOf(after.baseColor);
     if (before.metallic != after.metallic) pbr()["metallicFactor"] = shortest(after.metallic);

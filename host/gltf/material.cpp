@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "gltf/roughness.h"
 #include "gltf/texture.h"
 #include "scene/material_factors.h"
 #include "scene/ranges.h"
@@ -89,6 +90,23 @@ void readExtensions(const Json& json, const std::string& label, TextureReader& t
   out.unlit = extension(json, "KHR_materials_unlit") != nullptr;
 }
 
+/// KHR_materials_pbrSpecularGlossiness as a dielectric of ior 0, whose F0 is the specular colour itself
+/// (KHR_materials_ior, KHR_materials_specular). The extension's diffuse colour loses what F0 reflects; here
+/// it loses what is reflected at each angle, which is the same from the front. Glossiness is 1 - roughness.
+/// It comes in the place of metallic-roughness and of what goes with that alone.
+void readSpecularGlossiness(const Json& e, TextureReader& textures, Material& out) {
+  const Json& diffuse = child(e, "diffuseFactor");
+  for (int i = 0; i < 4 && diffuse.size() == 4; ++i) out.baseColor[i] = diffuse[at(i)].get<float>();
+  out.baseColorTexture = textures.slot(e, "diffuseTexture");
+  out.metallic = out.ior = out.transmission = 0.0F;
+  out.volume = false;
+  out.specular = 1.0F;
+  out.specularTexture = {};
+  out.specularColor = colour(e, "specularFactor", 1.0F);
+  out.specularColorTexture = textures.slot(e, "specularGlossinessTexture");
+  out.metallicRoughnessTexture = out.specularColorTexture;  // see makeRoughness
+}
+
 AlphaMode alphaModeOf(const std::string& mode, const std::string& label, Notices& notices) {
   if (mode == "MASK") return AlphaMode::Mask;
   if (mode == "BLEND") return AlphaMode::Blend;
@@ -108,11 +126,14 @@ std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, 
   ImageSources sources(document);
   sources.hold(wanted);
   TextureReader textures(document, sources, scene, notices);
+  std::vector<GlossyMaterial> glossyMaterials;
   int rough = 0;
   for (const int index : wanted) {
     if (index < 0) continue;
     const auto i = static_cast<std::size_t>(index);
-    const Json& json = document.json["materials"][i];
+    Json& json = document.json["materials"][i];
+    const Json* const glossy = extension(json, "KHR_materials_pbrSpecularGlossiness");
+    if (glossy) json.erase("pbrMetallicRoughness");  // for readers without the extension
     const std::string label = materialLabel(json, i);
     Material material;
     material.name = json.value("name", "");
@@ -120,6 +141,10 @@ std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, 
     material.alphaMode = alphaModeOf(json.value("alphaMode", "OPAQUE"), label, notices);
     readBase(json, textures, material);
     readExtensions(json, label, textures, material, notices);
+    if (glossy) {
+      readSpecularGlossiness(*glossy, textures, material);
+      glossyMaterials.push_back({scene.materials.size(), number(*glossy, "glossinessFactor", 1.0)});
+    }
     // Kept as they are, so that the picture shows what the file says; but said.
     if (!isInRange(material)) notices.warn(fmt::format("{}: {}", label, kFactorFlaw));
     rough += transmitsRoughly(material);
@@ -127,6 +152,7 @@ std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, 
     scene.materials.push_back(std::move(material));
   }
   textures.dropUnreadTexels();
+  makeRoughness(document, glossyMaterials, scene);
   if (rough > 0)
     notices.note(fmt::format("{} transmit{} light through a rough surface: drawn clear",
                              rough == 1 ? "1 material" : fmt::format("{} materials", rough),

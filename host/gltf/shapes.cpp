@@ -159,7 +159,11 @@ constexpr auto kVolume =
 constexpr auto kSpecular =
     forgiving(std::array{num("specularFactor"), object("specularTexture", kSlot),
                          nums("specularColorFactor", 3), object("specularColorTexture", kSlot)});
+constexpr auto kSpecularGlossiness = forgiving(
+    std::array{colourWithAlpha("diffuseFactor"), object("diffuseTexture", kSlot), nums("specularFactor", 3),
+               num("glossinessFactor"), object("specularGlossinessTexture", kSlot)});
 constexpr auto kMaterialExtensions = forgiving(std::array{
+    object("KHR_materials_pbrSpecularGlossiness", kSpecularGlossiness),
     object("KHR_materials_emissive_strength", kEmissiveStrength), object("KHR_materials_ior", kIor),
     object("KHR_materials_transmission", kTransmission), object("KHR_materials_volume", kVolume),
     object("KHR_materials_specular", kSpecular), object("KHR_materials_unlit", {})});

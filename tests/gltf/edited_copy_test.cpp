@@ -112,6 +112,30 @@ TEST(EditedCopy, AnIntensityChangesItsTwoNumbersAndNoByteElse) {
   EXPECT_EQ(was.substr(binary), is.substr(is.find(std::string("BIN\0", 4)) - 4));
 }
 
+/// Of specular-glossiness: what it has no number for is refused.
+TEST(EditedCopy, AGlossyMaterialKeepsItsExtension) {
+  GltfBuilder b = litFile();
+  b.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
+      {"diffuseFactor", {0.5, 0.5, 0.5, 1}}, {"specularFactor", {0.2, 0.3, 0.4}}, {"glossinessFactor", 0.6}};
+  const Edited e(b, [](Appearance& a) {
+    a.materials[0].baseColor = {0.1F, 0.2F, 0.7F, 1};
+    a.materials[0].roughness = 0.3F;
+    a.materials[0].emission = {0, 0.5F, 0};
+  });
+  const Json material = jsonOf(e.copy)["materials"][0];
+  EXPECT_EQ(material["pbrMetallicRoughness"], jsonOf(e.file)["materials"][0]["pbrMetallicRoughness"]);
+  EXPECT_EQ(material["extensions"]["VENDOR_thing"]["x"], 1);
+  try {
+    const Edited refused(b, [](Appearance& a) { a.materials[0].metallic = 0.5F; });
+    ADD_FAILURE() << "it was written";
+  } catch (const InputError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("\"clay\" is of KHR_materials_pbrSpecularGlossiness, which has no"),
+        std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(EditedCopy, ALightThatIsOffKeepsItsColour) {
   const Edited e(litFile(), [](Appearance& a) { a.lights[1].intensity = glm::vec3(0.0F); });
   EXPECT_EQ(e.changes(), (std::vector<std::string>{"/extensions/KHR_lights_punctual/lights/0/intensity"}));

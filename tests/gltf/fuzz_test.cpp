@@ -15,7 +15,7 @@ using test::GltfBuilder;
 using test::Json;
 
 /// An animation, a skin, a morph target, sparse values, instances, a texture with transform and sampler,
-/// lights, cameras, variants, other images of textures, visibility.
+/// lights, cameras, variants, glossiness, other images of textures, visibility.
 GltfBuilder everything() {
   GltfBuilder b;
   b.json["extensionsUsed"] = {"KHR_texture_transform", "EXT_mesh_gpu_instancing", "KHR_lights_punctual"};
@@ -73,7 +73,9 @@ GltfBuilder everything() {
                              {"JOINTS_0", joints},
                              {"WEIGHTS_0", weights}}}}}}});
   b.json["extensions"]["KHR_materials_variants"]["variants"] = Json::array({{{"name", "v"}}});
-  b.material({{"name", "other"}});
+  b.material({{"extensions",
+               {{"KHR_materials_pbrSpecularGlossiness",
+                 {{"diffuseFactor", {1, 1, 1, 1}}, {"specularGlossinessTexture", {{"index", 2}}}}}}}});
   b.json["meshes"][mesh]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] =
       Json::array({{{"material", 1}, {"variants", {0}}}});
   b.json["textures"][1]["extensions"]["EXT_texture_webp"]["source"] = 2;

@@ -54,6 +54,57 @@ TEST(GltfMaterial, DefaultsOfTheSpecification) {
   EXPECT_FALSE(m.doubleSided || m.unlit || m.volume);
 }
 
+/// The same as a dielectric of ior 0 with that F0 (KHR_materials_specular, KHR_materials_ior).
+TEST(GltfMaterial, SpecularGlossiness) {
+  const Json gloss{{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}},
+                   {"specularFactor", {0.5, 0.6, 0.7}},
+                   {"glossinessFactor", 0.75}};
+  const Material m =
+      materialOf({{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"baseColorFactor", {1, 0, 0, 1}}}},
+                  {"extensions",
+                   {{"KHR_materials_pbrSpecularGlossiness", gloss},
+                    {"KHR_materials_ior", {{"ior", 1.3}}},
+                    {"KHR_materials_specular", {{"specularFactor", 0.5}}}}}});
+  EXPECT_EQ(m.baseColor, glm::vec4(0.1F, 0.2F, 0.3F, 0.4F));
+  EXPECT_EQ(m.specularColor, glm::vec3(0.5F, 0.6F, 0.7F));
+  EXPECT_EQ(m.specular, 1.0F);
+  EXPECT_EQ(m.metallic, 0.0F);
+  EXPECT_EQ(m.ior, 0.0F);
+  EXPECT_EQ(m.roughness, 0.25F);
+  const Material defaults =
+      materialOf({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", Json::object()}}}});
+  EXPECT_EQ(defaults.baseColor, glm::vec4(1));
+  EXPECT_EQ(defaults.specularColor, glm::vec3(1));
+  EXPECT_EQ(defaults.roughness, 0.0F);
+}
+
+/// The picture is red and green, opaque: glossiness is the factor throughout, so roughness is 1 less that.
+TEST(GltfMaterial, GlossinessOfATextureBecomesRoughness) {
+  for (const double factor : {1.0, 0.3}) {
+    const Json gloss{{"diffuseTexture", {{"index", 0}}},
+                     {"specularGlossinessTexture", {{"index", 0}, {"texCoord", 1}}},
+                     {"glossinessFactor", factor}};
+    GltfBuilder b = textured({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", gloss}}}});
+    const Scene scene = b.load();
+    const Material& m = scene.materials.at(0);
+    ASSERT_EQ(scene.images.size(), 2U);
+    EXPECT_EQ(m.baseColorTexture.image, 0);
+    EXPECT_EQ(m.specularColorTexture.image, 0);
+    EXPECT_EQ(m.specularColorTexture.uvSet, 1);
+    EXPECT_EQ(m.metallicRoughnessTexture.image, 1);
+    EXPECT_EQ(m.metallicRoughnessTexture.uvSet, 1);
+    EXPECT_EQ(m.roughness, 1.0F);
+    const Image& made = scene.images[1];
+    EXPECT_EQ(made.width, 2);
+    EXPECT_EQ(made.isDeep(), factor != 1.0) << "8 bits are exact where nothing is multiplied";
+    for (std::size_t texel = 0; texel < 2; ++texel) {
+      const double roughness =
+          made.isDeep() ? made.deepTexels.at(4 * texel + 1) / 65535.0 : made.texels.at(4 * texel + 1) / 255.0;
+      EXPECT_NEAR(roughness, 1.0 - factor, 0.5 / 65535) << "half a step";
+    }
+  }
+}
+
 TEST(GltfMaterial, CoreFactors) {
   const Material m = materialOf(
       {{"name", "paint"},

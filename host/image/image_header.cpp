@@ -53,12 +53,14 @@ std::optional<ImageHeader> bmpHeader(Bytes bytes) {
   return ImageHeader{side(18), side(22)};
 }
 
+/// What is lossless is held whole while it is decoded, as is the alpha of what is not.
 std::optional<ImageHeader> webpHeader(Bytes bytes) {
   if (bytes.size() < 30) return std::nullopt;
-  if (startsWith(bytes, 12, "VP8X")) return ImageHeader{little(bytes, 24, 3) + 1, little(bytes, 27, 3) + 1};
+  if (startsWith(bytes, 12, "VP8X"))
+    return ImageHeader{little(bytes, 24, 3) + 1, little(bytes, 27, 3) + 1, false, true};
   if (startsWith(bytes, 12, "VP8L")) {
     const std::uint32_t bits = little(bytes, 21, 4);
-    return ImageHeader{(bits & 0x3fffU) + 1, (bits >> 14U & 0x3fffU) + 1};
+    return ImageHeader{(bits & 0x3fffU) + 1, (bits >> 14U & 0x3fffU) + 1, false, true};
   }
   return ImageHeader{little(bytes, 26, 2) & 0x3fffU, little(bytes, 28, 2) & 0x3fffU};
 }

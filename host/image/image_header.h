@@ -16,7 +16,7 @@ inline constexpr int kMaxTextureSide = 16384;
 struct ImageHeader {
   std::int64_t width = 0, height = 0;  ///< as the file claims
   bool isDeep = false;                 ///< 16 bits a channel
-  bool isProgressive = false;          ///< the decoder holds all of it, too: JPEG, interlaced PNG
+  bool isProgressive = false;          ///< the decoder holds all of it, too: JPEG, interlaced PNG, WebP
 
   std::uint64_t pixels() const { return static_cast<std::uint64_t>(width * height); }
   /// Once it is an Image: 8-bit RGBA, and 16-bit RGBA beside it where it is deep.

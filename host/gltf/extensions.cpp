@@ -37,8 +37,8 @@ struct Conversion {
 constexpr std::array kConversions{
     Conversion{"KHR_texture_basisu", "its textures are KTX2",
                "gltf-transform ktxdecompress IN OUT makes PNG of them", true},
-    Conversion{"EXT_texture_avif", "its textures are AVIF", "gltf-transform png IN OUT makes PNG of them",
-               true},
+    Conversion{"EXT_texture_avif", "its textures are AVIF",
+               "gltf-transform png IN OUT --formats avif makes PNG of them", true},
     Conversion{"MSFT_texture_dds", "its textures are DDS", "convert them to PNG", true},
     Conversion{"KHR_gaussian_splatting", "it holds Gaussian splats, which are no surfaces",
                "no converter makes surfaces of them; ask whatever made the splats for a mesh", false},

@@ -47,7 +47,7 @@ render anti_aliasing_1 anti_aliasing --rays-per-pixel 1
 render anti_aliasing_64 anti_aliasing --rays-per-pixel 64
 composition breakfast 20 --bounces 10 --light-radius 0.12 --ambient 0.06
 composition diner 16 --bounces 8
-composition watchmaker 12 --bounces 10
+composition watchmaker 16 --bounces 10 --aperture 0.002 --focus-pixel 760,500 --light-radius 0.012 --bloom 0.05
 composition valley 64 --sky 14,70 --sun-angle 0.53 --bloom 0.05 --width 960 --height 540 --cutoff 0 --exposure auto
 if wanted film; then # of the camera past the breakfast; img2webp is of Debian's package webp
   "$(dirname "$whittle")/make_scenes" - --breakfast "$work/breakfast.glb"

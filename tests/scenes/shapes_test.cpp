@@ -208,5 +208,22 @@ TEST(SceneKitLettering, EveryLetterIsDrawnAndOthersAreRefused) {
   EXPECT_THROW(makeText("a", 1, 0.1), std::logic_error);
 }
 
+TEST(SceneKitLettering, StrokesAreRoundAtTheirCorners) {
+  // An L, 6 high and 4 wide on its grid: each point of it lies half a stroke from one of the two lines that
+  // it is drawn along, and looks away from there.
+  const Mesh text = makeText("L", 6, 0.9);
+  const auto nearestOn = [](glm::vec3 p, glm::vec3 a, glm::vec3 b) {
+    return glm::mix(a, b, std::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0F, 1.0F));
+  };
+  const glm::vec3 top(-2, 0, -3), corner(-2, 0, 3), right(2, 0, 3);
+  for (std::size_t i = 0; i < text.positions.size(); ++i) {
+    const glm::vec3 p = text.positions[i];
+    const auto isRound = [&](glm::vec3 a, glm::vec3 b) {
+      return glm::distance((p - nearestOn(p, a, b)) / 0.45F, text.normals[i]) < 1e-5F;
+    };
+    EXPECT_TRUE(isRound(top, corner) || isRound(corner, right)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace generator::test

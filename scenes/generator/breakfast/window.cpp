@@ -7,6 +7,7 @@
 #include "shapes/lathe.h"
 #include "shapes/surface.h"
 #include "shapes/sweep.h"
+#include "textures/lens_discs.h"
 #include "textures/noise.h"
 
 namespace generator {
@@ -102,17 +103,8 @@ void addCurtains(const Table& w) {
         w.finishes.gold);
 }
 
-/// A disc that the lens makes of a point of light: its middle and radius in heights of the picture, its
-/// colour, and how much of it shows.
-struct Disc {
-  glm::dvec2 middle;
-  double radius;
-  glm::dvec3 light;
-  double weight;
-};
-
-std::vector<Disc> gardenDiscs() {
-  std::vector<Disc> discs;
+std::vector<LensDisc> gardenDiscs() {
+  std::vector<LensDisc> discs;
   for (std::uint32_t i = 0; i < 300; ++i) {
     const double up = 0.16 + 0.72 * unitValue(kDiscAt + 1, i);
     const glm::dvec3 light = up > 0.5     ? glm::dvec3(0.70, 0.78, 0.62)
@@ -150,15 +142,9 @@ glm::dvec3 gardenGreen(glm::dvec2 uv) {
 /// Morning in a garden as a lens that is focused on the table shows it: soft greens, and discs where leaves
 /// let the sky through.
 std::vector<std::uint8_t> gardenPicture() {
-  const std::vector<Disc> discs = gardenDiscs();
+  const std::vector<LensDisc> discs = gardenDiscs();
   return paintPicture(1536, 768, [&](glm::dvec2 uv) {
-    glm::dvec3 color = gardenGreen(uv);
-    for (const Disc& disc : discs) {
-      const double far = glm::distance({2 * uv.x, uv.y}, disc.middle) / disc.radius;
-      const double inside = smoothStep(1.06, 0.92, far) * (0.75 + 0.25 * smoothStep(0.4, 0.95, far));
-      color = glm::mix(color, disc.light, disc.weight * inside);
-    }
-    return color;
+    return withDiscs(gardenGreen(uv), {2 * uv.x, uv.y}, discs);
   });
 }
 

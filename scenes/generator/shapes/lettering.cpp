@@ -15,10 +15,10 @@ namespace generator {
 namespace {
 
 constexpr double kGlyphWidth = 4, kGlyphHeight = 6, kAdvance = 5.8;  // in units of the grid
-constexpr double kRound = 1.7, kSharp = 0.12;                        // radii of corners
+constexpr double kRound = 1.7;                                       // radius of corners
 
 /// Strokes are words of points, a digit for x and one for y each. An r before a stroke rounds its corners;
-/// one that ends where it began is closed.
+/// such a one is closed where it ends where it began.
 struct Glyph {
   char letter;
   const char* strokes;
@@ -70,17 +70,22 @@ const char* strokesOf(char letter) {
   throw std::logic_error(fmt::format("there is no glyph for '{}'", letter));
 }
 
-/// The stroke as a path on the grid.
-Outline strokePath(const std::string& stroke) {
+/// The stroke as paths on the grid. At a sharp corner one ends and another begins: around a corner that is
+/// sharper than the stroke is wide a single one would fold into itself, its normals with it.
+std::vector<Outline> strokePaths(const std::string& stroke) {
   const bool isRound = stroke[0] == 'r';
   std::vector<Corner> corners;
-  for (std::size_t i = isRound ? 1 : 0; i + 1 < stroke.size(); i += 2) {
-    corners.push_back({static_cast<double>(stroke[i] - '0'), static_cast<double>(stroke[i + 1] - '0'),
-                       isRound ? kRound : kSharp});
-  }
+  for (std::size_t i = isRound ? 1 : 0; i + 1 < stroke.size(); i += 2)
+    corners.push_back(
+        {static_cast<double>(stroke[i] - '0'), static_cast<double>(stroke[i + 1] - '0'), kRound});
+  std::vector<Outline> paths;
+  for (std::size_t i = 0; !isRound && i + 1 < corners.size(); ++i)
+    paths.push_back(roundCorners({corners[i], corners[i + 1]}, false));
+  if (!isRound) return paths;
   const bool isClosed = corners.front().x == corners.back().x && corners.front().y == corners.back().y;
   if (isClosed) corners.pop_back();
-  return roundCorners(corners, isClosed, 0.4);
+  paths.push_back(roundCorners(corners, isClosed, 0.4));
+  return paths;
 }
 
 /// `place` takes a point (to the right, up) of the line of text, whose middle is 0, to where it goes.
@@ -92,14 +97,15 @@ Mesh makeTextWhere(std::string_view text, double height, double stroke,
   for (const char letter : text) {
     std::istringstream words(strokesOf(letter));
     for (std::string word; words >> word;) {
-      const Outline path = strokePath(word);
-      SweepSpec sweep;
-      for (const OutlinePoint& p : path.points)
-        sweep.path.push_back(place(unit * (p.position + glm::dvec2(x, 0))));
-      sweep.isClosed = path.isClosed;
-      sweep.section = circleOutline(stroke / 2, 8);
-      sweep.capLength = stroke / 2;
-      append(mesh, makeSweep(sweep));
+      for (const Outline& path : strokePaths(word)) {
+        SweepSpec sweep;
+        for (const OutlinePoint& p : path.points)
+          sweep.path.push_back(place(unit * (p.position + glm::dvec2(x, 0))));
+        sweep.isClosed = path.isClosed;
+        sweep.section = circleOutline(stroke / 2, 8);
+        sweep.capLength = stroke / 2;
+        append(mesh, makeSweep(sweep));
+      }
     }
     x += kAdvance;
   }

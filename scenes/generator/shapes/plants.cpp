@@ -81,26 +81,38 @@ class Growth {
                0.26 * branch.radius, branch.level + 1});
   }
 
-  /// Folded along the middle: two triangles to each side.
+  /// Sprays of leaves along a twig.
   void addLeaves(const std::vector<glm::dvec3>& path) {
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      const double angle = kGoldenAngle * static_cast<double>(count_), rise = 0.5 * random() - 0.1;
-      const glm::dvec3 along = glm::normalize(glm::dvec3(std::cos(angle), rise, std::sin(angle)));
-      const glm::dvec3 across = glm::normalize(glm::cross(along, glm::dvec3(0, 1, 0))),
-                       up = glm::cross(across, along);
-      const double length = spec_.height * (0.045 + 0.02 * random()), width = 0.4 * length;
-      const glm::dvec3 foot = path[i], middle = foot + 0.5 * length * along,
-                       tip = foot + length * along - 0.15 * length * up;
-      for (const double side : {1.0, -1.0}) {
-        const glm::dvec3 edge = middle + side * width * across + 0.3 * width * up;
-        const glm::vec3 normal(glm::normalize(up - 0.3 * side * across));
-        const auto first = static_cast<std::uint32_t>(tree_.leaves.positions.size());
-        for (const glm::dvec3& p : {foot, edge, tip}) {
-          tree_.leaves.positions.emplace_back(p);
-          tree_.leaves.normals.push_back(normal);
-        }
-        const std::uint32_t a = side > 0 ? 1 : 2;
-        tree_.leaves.indices.insert(tree_.leaves.indices.end(), {first, first + a, first + 3 - a});
+    constexpr int kSpray = 6;
+    for (std::size_t i = 1; i < path.size(); ++i)
+      for (int k = 0; k < kSpray; ++k) {
+        const double angle = kGoldenAngle * static_cast<double>(count_), rise = 0.9 * random() - 0.35;
+        const double length = spec_.height * (0.019 + 0.012 * random());
+        const glm::dvec3 along = glm::normalize(glm::dvec3(std::cos(angle), rise, std::sin(angle)));
+        const glm::dvec3 foot = glm::mix(path[i - 1], path[i], (k + random()) / kSpray);
+        addLeaf(foot + 0.3 * length * along, along, length);
+      }
+  }
+
+  /// Folded along the middle and bent down; two triangles to each side, rounded at both ends.
+  void addLeaf(glm::dvec3 foot, glm::dvec3 along, double length) {
+    const glm::dvec3 across = glm::normalize(glm::cross(along, glm::dvec3(0, 1, 0))),
+                     up = glm::cross(across, along);
+    const double width = 0.3 * length;
+    const glm::dvec3 tip = foot + length * along - 0.18 * length * up;
+    for (const double side : {1.0, -1.0}) {
+      const auto edge = [&](double t, double out) {
+        return foot + t * length * along + side * out * width * across + 0.25 * out * width * up;
+      };
+      const glm::vec3 normal(glm::normalize(up - 0.25 * side * across));
+      const auto first = static_cast<std::uint32_t>(tree_.leaves.positions.size());
+      for (const glm::dvec3& p : {foot, edge(0.28, 0.9), edge(0.62, 1.0), tip}) {
+        tree_.leaves.positions.emplace_back(p);
+        tree_.leaves.normals.push_back(normal);
+      }
+      for (const std::uint32_t k : {1U, 2U}) {
+        const std::uint32_t b = side > 0 ? k : k + 1;
+        tree_.leaves.indices.insert(tree_.leaves.indices.end(), {first, first + b, first + 2 * k + 1 - b});
       }
     }
   }

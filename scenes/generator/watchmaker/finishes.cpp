@@ -63,7 +63,7 @@ void addBenchFinishes(GltfBuilder& scene, Finishes& f) {
   f.tiles = roomFinish(scene, "floor tiles", 0.9, tileSurface(6, {0.30, 0.17, 0.09}));
   f.bulb = plain(lamp("bulb", {26, 17, 8}));
   MaterialSpec lining = matte("inside of the shade", {0.55, 0.46, 0.34});
-  lining.emission = {0.30, 0.19, 0.08};
+  lining.emission = {0.20, 0.125, 0.05};
   f.shadeInside = plain(lining);
   f.blind = plain(lamp("paper blind", {0.34, 0.46, 0.70}));
   f.lantern = plain(lamp("lantern", {1.5, 1.15, 0.75}));

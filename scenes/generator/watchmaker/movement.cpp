@@ -207,7 +207,7 @@ void addBarrelBridge(const Workshop& w, const SmallParts& parts) {
           w.finishes.polishedSteel, placed(at, 0));
     addScrew(w, parts, at, kBridgeTop + 0.1, angle * 1.7, 1.7);
   }
-  w.add("name", makeTextOnCircle("WHITTLE", 1.7, 0.26, 27.2), w.finishes.bluedSteel,
+  w.add("name", makeTextOnCircle("WHITTLE", 1.7, 0.26, 27.2), w.finishes.ink,
         {.position = {0, kBridgeTop, 0}, .turnY = 62});
   addJewel(w, parts, {-22.5, 7.0}, kBridgeTop);
 }

@@ -1,11 +1,13 @@
-// The room around the bench, its window, and the city outside. In millimetres like all the rest: a street is
-// 10⁵ of them away.
-#include <array>
+// The room around the bench, its window, and the city outside, which a lens that is focused on the watch sees
+// as discs of light.
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "hash.h"
 #include "shapes/lathe.h"
 #include "textures/bake.h"
+#include "textures/lens_discs.h"
 #include "textures/noise.h"
 #include "watchmaker/workshop.h"
 
@@ -14,16 +16,14 @@ namespace {
 
 constexpr double kWindowZ = -330, kSill = 2;
 constexpr glm::dvec2 kWindowLow(-460, 4), kWindowHigh(520, 900);  // x and y
-constexpr double kStreet = -14000;                                // the room is on the fourth floor
 
 /// Numbers that differ between the things of the city.
 enum CitySeries : std::uint32_t {
   kSkyCloud = 8000,
   kLit = 8100,
-  kWindowHeight,
   kHouseWidth = 8200,
-  kHouseAt,
-  kHouseFloors
+  kHouseHeight = 8210,
+  kTraffic = 8220
 };
 
 /// Walls far enough away that nothing but mirrors shows them, and the wall with the window behind the bench.
@@ -63,38 +63,97 @@ void addWindow(const Workshop& w) {
         f.pane);
 }
 
-/// Dusk: from a warm band at the horizon (below) to deep blue.
-std::vector<std::uint8_t> skyPicture() {
-  return paintPicture(256, 256, [](glm::dvec2 uv) {
-    const double up = 1 - uv.y, cloud = fractalNoise({uv.x, 3 * uv.y}, {5, 9}, kSkyCloud, 5);
-    glm::dvec3 color =
-        glm::mix(glm::dvec3(0.78, 0.40, 0.20), glm::dvec3(0.36, 0.27, 0.42), smoothStep(0.24, 0.46, up));
-    color = glm::mix(color, glm::dvec3(0.07, 0.13, 0.36), smoothStep(0.38, 0.78, up));
-    return color * (0.85 + 0.3 * cloud);
-  });
-}
+// The picture of the city: twice as wide as it is high. Places are in its heights, y up.
+constexpr double kCityHeight = 2200, kCityBase = -1000, kCityZ = -3000;  // millimetres
+constexpr double kSkyline = 0.552;  ///< where the houses end and the sky begins
+constexpr double kDisc = 0.0115;    ///< radius of what the lens makes of a point
 
-/// A house of `floors` floors of lit and dark windows.
-void addHouse(Mesh& facades, std::array<Mesh, 3>& windows, glm::dvec3 foot, double width, double depth,
-              int floors, std::uint32_t id) {
-  constexpr double kFloor = 3200, kBay = 2600;
-  const double height = kFloor * floors;
-  addQuad(facades, foot, {width, 0, 0}, {0, height, 0});                             // to the bench
-  addQuad(facades, foot + glm::dvec3(0, 0, -depth), {0, 0, depth}, {0, height, 0});  // to the left
-  addQuad(facades, foot + glm::dvec3(width, 0, 0), {0, 0, -depth}, {0, height, 0});  // to the right
-  addQuad(facades, foot + glm::dvec3(0, height, 0), {width, 0, 0}, {0, 0, -depth});  // roof
-  const int bays = static_cast<int>(width / kBay);
-  const double margin = 0.5 * (width - bays * kBay);
-  for (int floor = 0; floor < floors; ++floor) {
-    for (int bay = 0; bay < bays; ++bay) {
-      const std::uint32_t seed = id * 4096 + static_cast<std::uint32_t>(floor * 64 + bay);
-      const double chance = unitValue(kLit, seed);
-      if (chance > 0.58) continue;
-      const std::size_t kind = chance < 0.24 ? 0 : chance < 0.32 ? 1 : 2;
-      const glm::dvec3 corner = foot + glm::dvec3(margin + kBay * bay + 700, kFloor * floor + 900, 40);
-      addQuad(windows[kind], corner, {1000, 0, 0}, {0, 1200 + 500 * unitValue(kWindowHeight, id), 0});
+/// A row of houses, one behind the other in three rows: 2 is the farthest.
+struct House {
+  double left, right, top;
+  std::uint32_t row;
+};
+
+std::vector<House> houses() {
+  std::vector<House> all;
+  for (std::uint32_t row = 3; row-- > 0;) {
+    double x = -0.1 * unitValue(kHouseWidth, row);
+    for (std::uint32_t i = 0; x < 2; ++i) {
+      const std::uint32_t id = 100 * row + i;
+      const double width = 0.055 + 0.06 * unitValue(kHouseWidth + 1, id),
+                   chance = unitValue(kHouseHeight, id);
+      const double tower = row == 2 && i % 5 == 2 ? 0.045 : 0.0;
+      all.push_back({x, x + width, kSkyline - 0.045 * (2 - row) + 0.045 * (chance - 0.5) + tower, row});
+      x += width + 0.004;
     }
   }
+  return all;
+}
+
+/// Dusk: from a warm band above the roofs to deep blue.
+glm::dvec3 duskAt(glm::dvec2 at) {
+  const double up = at.y - kSkyline, cloud = fractalNoise({0.5 * at.x, 3 * at.y}, {5, 9}, kSkyCloud, 5);
+  glm::dvec3 color =
+      glm::mix(glm::dvec3(0.80, 0.38, 0.17), glm::dvec3(0.36, 0.25, 0.40), smoothStep(-0.01, 0.04, up));
+  color = glm::mix(color, glm::dvec3(0.06, 0.12, 0.36), smoothStep(0.02, 0.10, up));
+  return color * (0.80 + 0.4 * cloud);
+}
+
+/// Walls and sky as the lens blurs them: edges as wide as a disc. Walls in the haze of their row.
+glm::dvec3 wallsAndSky(glm::dvec2 at, const std::vector<House>& all) {
+  constexpr glm::dvec3 kWalls[] = {{0.022, 0.026, 0.046}, {0.036, 0.038, 0.062}, {0.062, 0.056, 0.082}};
+  glm::dvec3 color = duskAt(at);
+  for (const House& house : all) {
+    const double beside = std::max(house.left - at.x, at.x - house.right), above = at.y - house.top;
+    if (beside > kDisc || above > kDisc) continue;
+    const double covers = smoothStep(kDisc, -kDisc, beside) * smoothStep(kDisc, -kDisc, above);
+    color = glm::mix(color, kWalls[house.row], covers);
+  }
+  return color;
+}
+
+/// A lit window of a house. Places are from the top here, as pictures have them.
+LensDisc windowLight(glm::dvec2 at, const House& house, std::uint32_t seed) {
+  const double kind = unitValue(kLit + 1, seed);
+  const glm::dvec3 light = kind < 0.62   ? glm::dvec3(1.0, 0.60, 0.22)
+                           : kind < 0.82 ? glm::dvec3(1.0, 0.80, 0.52)
+                           : kind < 0.95 ? glm::dvec3(0.55, 0.72, 1.0)
+                                         : glm::dvec3(1.0, 0.24, 0.12);
+  const double haze = 1 - 0.22 * house.row;
+  return {{at.x, 1 - at.y},
+          kDisc * (0.9 + 0.2 * unitValue(kLit + 2, seed)),
+          light,
+          haze * (0.10 + 0.75 * std::pow(unitValue(kLit + 3, seed), 2.5))};
+}
+
+std::vector<LensDisc> cityLights(const std::vector<House>& all) {
+  constexpr double kFloor = 0.017, kBay = 0.013;
+  std::vector<LensDisc> discs;
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    const House& house = all[i];
+    std::uint32_t seed = 4096 * i;
+    for (double y = house.top - kFloor; y > 0.28; y -= kFloor)
+      for (double x = house.left + kBay; x < house.right - 0.5 * kBay; x += kBay)
+        if (unitValue(kLit, ++seed) < 0.12) discs.push_back(windowLight({x, y}, house, seed));
+  }
+  for (std::uint32_t i = 0; i < 70; ++i) {  // lamps and cars of the street
+    const double x = 2 * unitValue(kTraffic, i), up = 0.36 + 0.035 * unitValue(kTraffic + 1, i);
+    const bool isRear = i % 3 == 0;
+    discs.push_back({{x, 1 - up},
+                     1.15 * kDisc,
+                     isRear ? glm::dvec3(1.0, 0.16, 0.08) : glm::dvec3(1.0, 0.74, 0.40),
+                     0.35 + 0.5 * unitValue(kTraffic + 2, i)});
+  }
+  return discs;
+}
+
+std::vector<std::uint8_t> cityPicture() {
+  const std::vector<House> all = houses();
+  const std::vector<LensDisc> discs = cityLights(all);
+  return paintPicture(2048, 1024, [&](glm::dvec2 uv) {
+    const glm::dvec2 at(2 * uv.x, uv.y);
+    return withDiscs(wallsAndSky({at.x, 1 - at.y}, all), at, discs);
+  });
 }
 
 }  // namespace
@@ -110,41 +169,11 @@ void addRoomAround(const Workshop& workshop) {
 }
 
 void addCity(const Workshop& workshop) {
-  GltfBuilder& scene = workshop.scene;
-  MaterialSpec sky = lamp("evening sky", glm::dvec3(1));
-  sky.emissionTexture.image = scene.addImage("evening sky", skyPicture(), false);
-  workshop.add("sky", makeQuad({-900e3, -30e3, -800e3}, {1800e3, 0, 0}, {0, 110e3, 0}),
-               {scene.addMaterial(sky), true});
-  std::array<Mesh, 3> facades, windows;
-  constexpr std::uint32_t kHouses = 260;
-  for (std::uint32_t i = 0; i < kHouses; ++i) {
-    const double t = (i + 0.5) / kHouses, far = 150e3 + 520e3 * t * t;
-    const double width = 9e3 + 14e3 * unitValue(kHouseWidth, i),
-                 x = (unitValue(kHouseAt, i) - 0.5) * 1.3 * (far + 30e3);
-    const bool isTower = i % 13 == 0 && far > 220e3;
-    const int floors = 3 + static_cast<int>(4 * unitValue(kHouseFloors, i)) + (isTower ? 6 : 0);
-    addHouse(facades[i % 3], windows, {x, kStreet, -far}, width, 12e3, floors, i);
-  }
-  // What dusk gives to walls, from near to hazy.
-  const glm::dvec3 dusk[] = {{0.020, 0.024, 0.042}, {0.030, 0.033, 0.052}, {0.042, 0.042, 0.062}};
-  const glm::dvec3 glow[] = {{1.7, 0.95, 0.38}, {0.75, 0.95, 1.25}, {0.55, 0.27, 0.1}};
-  const auto addGlowing = [&](const char* name, Mesh& mesh, glm::dvec3 radiance) {
-    workshop.add(name, std::move(mesh), {scene.addMaterial(lamp(name, radiance)), false});
-  };
-  for (std::size_t k = 0; k < 3; ++k) {
-    addGlowing("houses", facades[k], dusk[k]);
-    addGlowing("lit windows", windows[k], glow[k]);
-  }
-  Mesh street = makeQuad({-900e3, kStreet, -20e3}, {1800e3, 0, 0}, {0, 0, -780e3});
-  addGlowing("street", street, {0.016, 0.018, 0.026});
-  const int streetLamp = workshop.addMesh("street lamp", makeSphere(420, 24, 12),
-                                          {scene.addMaterial(lamp("street lamp", {3.2, 2.0, 0.8})), false});
-  for (std::uint32_t i = 0; i < 80; ++i) {
-    const std::uint32_t pair = i / 2;
-    const double far = 140e3 + 9e3 * pair;
-    const double side = (i % 2 == 0 ? -1 : 1) * (8e3 + 0.05 * far) + 6e3;
-    workshop.placeMesh(streetLamp, {.position = {side, kStreet + 8000, -far}});
-  }
+  MaterialSpec city = lamp("evening city", glm::dvec3(1.15));
+  city.emissionTexture.image = workshop.scene.addImage("evening city", cityPicture(), false);
+  workshop.add("city",
+               makeQuad({-kCityHeight, kCityBase, kCityZ}, {2 * kCityHeight, 0, 0}, {0, kCityHeight, 0}),
+               {workshop.scene.addMaterial(city), true});
 }
 
 }  // namespace generator

@@ -38,7 +38,7 @@ RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const Floa
   std::future<void> codec;  // loaded while kernels are compiled
   hooks.phase = [&](const std::string& text) {
     bar.phase(text);
-    const bool writes = !o.outputs.empty() || !o.aovs.empty();
+    const bool writes = !o.aovs.empty() || std::any_of(o.outputs.begin(), o.outputs.end(), needsImageCodec);
     if (writes && text == kFirstPhase) codec = std::async(std::launch::async, loadImageCodec);
     if (codec.valid() && text == kLastPhase) codec.get();
   };

@@ -11,6 +11,8 @@
 
 #include "image/exr_header.h"
 #include "image/image_codec.h"
+#include "image/plain_images.h"
+#include "image/png_writer.h"
 #include "image/radiance_file.h"
 #include "scene/input_error.h"
 #include "scene/own_library.h"
@@ -47,8 +49,10 @@ std::string imageFormatOf(const fs::path& path) {
   return {};
 }
 
-/// All of the file, where it is one of Radiance's; what cannot be read is left to the codec, which says why.
-std::optional<std::vector<std::byte>> radianceBytes(const fs::path& path) {
+/// All of the file, where its first bytes are of that kind; what cannot be read is left to the codec, which
+/// says why.
+template <class IsOfKind>
+std::optional<std::vector<std::byte>> bytesIf(const fs::path& path, const IsOfKind& isOfKind) {
   std::error_code error;
   std::ifstream file(path, std::ios::binary);
   std::vector<std::byte> bytes(2);
@@ -56,7 +60,7 @@ std::optional<std::vector<std::byte>> radianceBytes(const fs::path& path) {
     return static_cast<bool>(file.read(reinterpret_cast<char*>(bytes.data() + from),
                                        static_cast<std::streamsize>(bytes.size() - from)));
   };
-  if (!readTo(0) || !isRadianceFile(bytes)) return std::nullopt;
+  if (!readTo(0) || !isOfKind(bytes)) return std::nullopt;
   const auto size = fs::file_size(path, error);
   if (error || size < bytes.size()) return std::nullopt;
   bytes.resize(size);
@@ -71,6 +75,14 @@ void refuseStreams(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   if (fs::exists(status) && !fs::is_regular_file(status))
     throw InputError(fmt::format("{}: is not a regular file", path.string()));
+}
+
+void checkSize(const fs::path& path, const CodeImage& image) {
+  const bool isPicture = image.width > 0 && image.height > 0 && (image.channels == 3 || image.channels == 4);
+  if (!isPicture || image.codes.size() != std::size_t{1} * image.width * image.height * image.channels)
+    throw std::runtime_error(fmt::format("{}: {} values are not a {}x{} picture of {} channels",
+                                         path.string(), image.codes.size(), image.width, image.height,
+                                         image.channels));
 }
 
 /// A header with what people put there; one that is longer is read by the codec alone.
@@ -131,12 +143,17 @@ FloatImage joined(const std::vector<const FloatImage*>& images) {
 
 void loadImageCodec() { codec(); }
 
+bool needsImageCodec(const fs::path& path) { return imageFormatOf(path) != "png"; }
+
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name) {
+  if (auto plain = decodePlainImage(bytes, name)) return std::move(*plain);
   return codec().decodeImage(bytes, name);
 }
 
 Image readImage(const fs::path& path) {
   refuseStreams(path);
+  if (const auto bytes = bytesIf(path, mayBePlain))
+    if (auto plain = decodePlainImage(*bytes, path.string())) return std::move(*plain);
   refuseDamagedExr(path);
   return codec().readImage(path);
 }
@@ -148,7 +165,7 @@ ImageHeader readImageHeader(const fs::path& path) {
 
 FloatImage readFloatImage(const fs::path& path) {
   refuseStreams(path);
-  if (const auto bytes = radianceBytes(path)) return decodeRadiance(*bytes, path.string());
+  if (const auto bytes = bytesIf(path, isRadianceFile)) return decodeRadiance(*bytes, path.string());
   refuseDamagedExr(path);
   return codec().readFloatImage(path);
 }
@@ -167,6 +184,10 @@ void writeCodes(const fs::path& path, const CodeImage& image, const ImageMetadat
     throw InputError(
         fmt::format("{}: a tone-mapped picture needs the extension .png or .jpg", path.string()));
   checkFolderWritable(path);
+  if (format == "png") {
+    checkSize(path, image);
+    return writeWholeFile(path, encodePng(image, metadata));
+  }
   codec().writeCodes(path, format, image, metadata);
 }
 

@@ -26,12 +26,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const FloatImage& reference,
-                                Trace* trace, RenderSession* session) {
+                                Trace* trace, RenderSession& session) {
   ProgressBar bar(o.scene.quiet, o.what);
   RenderHooks hooks;
   if (!o.kernelFolder.empty()) hooks.kernelFolder = o.kernelFolder;
   if (!o.reference.empty()) hooks.reference = &reference;
-  hooks.timeStages = o.profile || trace || !o.stats.empty();
+  hooks.timeStages = timesStages(o);
   hooks.trace = trace;
   hooks.compiler = "/proc/self/exe";
   hooks.consumed = &scene;
@@ -53,7 +53,8 @@ RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const Floa
   };
   RenderResult result;
   explainingErrors(o, [&] {
-    result = session ? session->render(scene, o.settings, hooks) : render(scene, o.settings, hooks);
+    result = session.render(scene, o.settings, hooks);
+    if (!o.frames.frames) session.close();  // what follows may need the room
   });
   return result;
 }
@@ -158,8 +159,10 @@ void explainingErrors(const RenderOptions& o, const std::function<void()>& work)
   }
 }
 
+bool timesStages(const RenderOptions& o) { return o.profile || !o.trace.empty() || !o.stats.empty(); }
+
 bool drawScene(RenderOptions& o, Scene& scene, const FloatImage& reference, Trace* trace,
-               RenderSession* session, Clock::time_point start, double load, float& stops) {
+               RenderSession& session, Clock::time_point start, double load, float& stops) {
   RenderResult result = renderWithProgress(scene, o, reference, trace, session);
   result.stats.time.load = load;
   result.stats.phases.insert(result.stats.phases.begin(), {"load", steadySeconds(start), load});

@@ -3,10 +3,14 @@
 #include "bvh/tri_tree.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "bvh/chunks.h"
 #include "bvh/prim_ref.h"
@@ -65,25 +69,37 @@ BuildRange makeRefs(std::span<const glm::vec3> positions, std::span<const glm::u
   return all;
 }
 
-std::size_t countNodes(const Subtree& tree) {
-  std::size_t count = tree.nodes.size();
-  for (const auto& part : tree.parts) count += part ? countNodes(*part) : 0;
-  return count;
+/// Where the nodes of a subtree go.
+struct Place {
+  const Subtree* tree;
+  std::int32_t base;
+};
+
+/// Appends the places of a subtree and of its parts, depth-first, and tells it where its parts are, counted
+/// from its own first node; returns how many nodes there are then.
+std::int32_t placeNodes(Subtree& tree, std::int32_t base, std::vector<Place>& places) {
+  places.push_back({&tree, base});
+  std::int32_t end = base + static_cast<std::int32_t>(tree.nodes.size());
+  for (int k = 0; k < 2; ++k) {
+    if (!tree.parts[k]) continue;
+    tree.nodes[0].child[k] = end - base;
+    end = placeNodes(*tree.parts[k], end, places);
+  }
+  return end;
 }
 
-/// Appends a subtree depth-first and frees it; returns the index of its first node.
-std::int32_t append(std::unique_ptr<Subtree> tree, std::vector<TreeNode>& nodes) {
-  const auto base = static_cast<std::int32_t>(nodes.size());
-  for (TreeNode node : tree->nodes) {
-    for (std::int32_t& child : node.child) child += child >= 0 ? base : 0;
-    nodes.push_back(node);
-  }
-  for (int k = 0; k < 2; ++k) {
-    if (!tree->parts[k]) continue;
-    const std::int32_t child = append(std::move(tree->parts[k]), nodes);
-    nodes[static_cast<std::size_t>(base)].child[k] = child;
-  }
-  return base;
+UninitializedVector<TreeNode> oneArray(std::unique_ptr<Subtree> top) {
+  std::vector<Place> places;
+  UninitializedVector<TreeNode> nodes(static_cast<std::size_t>(placeNodes(*top, 0, places)));
+  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+    const std::int32_t base = places[i].base;
+    std::transform(places[i].tree->nodes.begin(), places[i].tree->nodes.end(), nodes.begin() + base,
+                   [&](TreeNode node) {
+                     for (std::int32_t& child : node.child) child += child >= 0 ? base : 0;
+                     return node;
+                   });
+  });
+  return nodes;
 }
 
 }  // namespace
@@ -101,9 +117,7 @@ TriTree buildTriTree(std::span<const glm::vec3> positions, std::span<const glm::
   std::unique_ptr<Subtree> top = builder.build(all);
   UninitializedVector<PrimRef>().swap(refs);  // an assignment from {} would keep the memory
   tree.depth = top->depth;
-  tree.nodes.reserve(countNodes(*top));
-  adviseLargePages(tree.nodes.data(), tree.nodes.capacity() * sizeof(TreeNode));
-  append(std::move(top), tree.nodes);
+  tree.nodes = oneArray(std::move(top));
   return tree;
 }
 

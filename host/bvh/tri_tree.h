@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "bvh/uninitialized.h"
+
 namespace whittle {
 
 /// A node with two children, boxes stored in the parent so that one 64-byte line decides both. A child
@@ -22,9 +24,9 @@ struct TreeNode {
 static_assert(sizeof(TreeNode) == 64);
 
 struct TriTree {
-  std::vector<TreeNode> nodes;       ///< depth-first from the root; at least one node
-  std::vector<std::uint32_t> order;  ///< triangle indices in leaf order; degenerate triangles left out
-  int depth = 0;                     ///< nodes on the longest path, root = 1; never above kMaxTreeDepth
+  UninitializedVector<TreeNode> nodes;  ///< depth-first from the root; at least one node
+  std::vector<std::uint32_t> order;     ///< triangle indices in leaf order; degenerate triangles left out
+  int depth = 0;                        ///< nodes on the longest path, root = 1; never above kMaxTreeDepth
 };
 
 /// Traversal stacks are this deep. The builder falls back to median splits so that it holds for any input.

@@ -52,6 +52,7 @@ DeviceInfo describe(const cl::Device& device, const std::string& platform) {
   info.largestBuffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   info.maxWorkGroup = device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
   info.floatLanes = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
+  info.sharesMemory = info.kind == "cpu" && device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>();
   info.reason = whyUnusable(device);
   info.usable = info.reason.empty();
   return info;

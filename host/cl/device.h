@@ -18,6 +18,7 @@ struct DeviceInfo {
   std::uint64_t largestBuffer = 0;  ///< bytes, the single-allocation limit
   std::uint64_t maxWorkGroup = 0;   ///< work items
   unsigned floatLanes = 1;          ///< floats of a native vector
+  bool sharesMemory = false;        ///< a CPU whose buffers may lie in the host's own memory
   bool usable = false;
   std::string reason;  ///< why not, one line
   cl::Device device;

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <memory>
+
 #include "scene/byte_counts.h"
 
 namespace whittle {
@@ -24,8 +27,27 @@ Buffer Compute::allocate(const std::string& name, std::size_t bytes) {
                               formatBytes(device_.largestBuffer), device_.largestBuffer));
   if (memory_ == Memory::SizesOnly) return {name, bytes, {}};
   return clTry(fmt::format("allocating buffer '{}' of {}", name, formatBytes(bytes)), [&] {
+    if (device_.sharesMemory)
+      if (Buffer shared = allocateShared(name, bytes)) return shared;
     return Buffer{name, bytes, cl::Buffer(context_, CL_MEM_READ_WRITE, bytes)};
   });
+}
+
+/// Empty where there is no memory left: what the driver then says of its own is told.
+Buffer Compute::allocateShared(const std::string& name, std::size_t bytes) {
+  constexpr std::size_t kPage = 4096;  // what drivers take as it is, whatever else they copy
+  if (bytes > ~std::size_t{0} - kPage) return {};
+  std::unique_ptr<void, decltype(&std::free)> memory(
+      std::aligned_alloc(kPage, (bytes + kPage - 1) / kPage * kPage), &std::free);
+  if (!memory) return {};
+  Buffer buffer{name, bytes,
+                cl::Buffer(context_, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory.get()),
+                static_cast<std::byte*>(memory.get())};
+  // Launches may still be under way when the last handle goes: the driver says when it needs the memory no
+  // more.
+  buffer.handle.setDestructorCallback([](cl_mem, void* own) { std::free(own); }, memory.get());
+  memory.release();
+  return buffer;
 }
 
 Buffer Compute::upload(const std::string& name, const void* data, std::size_t bytes) {

@@ -1,6 +1,7 @@
 // A compute context on one device: queue, compiled program, kernels, buffers that know their names.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -19,6 +20,9 @@ struct Buffer {
   std::string name;
   std::size_t bytes = 0;
   cl::Buffer handle;
+  /// Its memory, where host and device share it: may be written until the first launch that is given the
+  /// buffer. Else null.
+  std::byte* shared = nullptr;
 
   explicit operator bool() const { return bytes > 0; }
 };
@@ -54,6 +58,21 @@ class Compute {
   /// Blocking copy to the host.
   void read(const Buffer& buffer, std::size_t offset, std::size_t bytes, void* out);
   void fillZero(const Buffer& buffer);
+  /// Makes `count` items of type T: `make(first, items)` writes items [first, first + items.size()), in place
+  /// where the memory is shared, else some at a time, which are then copied. Items hold anything before.
+  /// Blocking.
+  template <typename T, typename Make>
+  void writeItems(const Buffer& buffer, std::size_t count, const Make& make) {
+    if (!buffer.handle()) return;
+    if (buffer.shared) return make(std::size_t{0}, std::span(reinterpret_cast<T*>(buffer.shared), count));
+    constexpr std::size_t kAtOnce = 1 << 16;
+    std::vector<T> part(std::min(kAtOnce, count));
+    for (std::size_t first = 0; first < count; first += kAtOnce) {
+      const std::span<T> items(part.data(), std::min(kAtOnce, count - first));
+      make(first, items);
+      write(buffer, first * sizeof(T), std::as_bytes(items));
+    }
+  }
 
   /// Builds `source`, which messages call `name`; a failure throws BuildError. Warnings of the compiler are
   /// kept in buildLog().
@@ -62,6 +81,8 @@ class Compute {
   const std::string& buildLog() const { return buildLog_; }
 
  private:
+  Buffer allocateShared(const std::string& name, std::size_t bytes);
+
   DeviceInfo device_;
   Memory memory_;
   Launches launches_;

@@ -26,19 +26,19 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const FloatImage& reference,
-                                Trace* trace, RenderSession* session) {
+                                Trace* trace, RenderSession& session) {
   ProgressBar bar(o.scene.quiet, o.what);
   RenderHooks hooks;
   if (!o.kernelFolder.empty()) hooks.kernelFolder = o.kernelFolder;
   if (!o.reference.empty()) hooks.reference = &reference;
-  hooks.timeStages = o.profile || trace || !o.stats.empty();
+  hooks.timeStages = timesStages(o);
   hooks.trace = trace;
   hooks.compiler = "/proc/self/exe";
   hooks.consumed = &scene;
   std::future<void> codec;  // loaded while kernels are compiled
   hooks.phase = [&](const std::string& text) {
     bar.phase(text);
-    const bool writes = !o.outputs.empty() || !o.aovs.empty();
+    const bool writes = !o.aovs.empty() || std::any_of(o.outputs.begin(), o.outputs.end(), needsImageCodec);
     if (writes && text == kFirstPhase) codec = std::async(std::launch::async, loadImageCodec);
     if (codec.valid() && text == kLastPhase) codec.get();
   };
@@ -53,7 +53,8 @@ RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const Floa
   };
   RenderResult result;
   explainingErrors(o, [&] {
-    result = session ? session->render(scene, o.settings, hooks) : render(scene, o.settings, hooks);
+    result = session.render(scene, o.settings, hooks);
+    if (!o.frames.frames) session.close();  // what follows may need the room
   });
   return result;
 }
@@ -159,8 +160,10 @@ void explainingErrors(const RenderOptions& o, const std::function<void()>& work)
   }
 }
 
+bool timesStages(const RenderOptions& o) { return o.profile || !o.trace.empty() || !o.stats.empty(); }
+
 bool drawScene(RenderOptions& o, Scene& scene, const FloatImage& reference, Trace* trace,
-               RenderSession* session, Clock::time_point start, double load, float& stops) {
+               RenderSession& session, Clock::time_point start, double load, float& stops) {
   RenderResult result = renderWithProgress(scene, o, reference, trace, session);
   result.stats.time.load = load;
   result.stats.phases.insert(result.stats.phases.begin(), {"load", steadySeconds(start), load});

@@ -42,11 +42,14 @@ inline double secondsSince(std::chrono::steady_clock::time_point start) {
 /// Runs `work`; errors of kernels and devices in words that help.
 void explainingErrors(const RenderOptions& o, const std::function<void()>& work);
 
-/// Renders a loaded scene and writes what is asked for. `session`: holds what the next picture needs too;
-/// null: there is none. `load`: what loading took since `start`, seconds. Returns whether every file is where
-/// it should be; `stops` becomes the exposure that was chosen.
+/// Whether anything tells of the time of each launch (RenderHooks::timeStages).
+bool timesStages(const RenderOptions& o);
+
+/// Renders a loaded scene and writes what is asked for. `session`: holds what the next frame needs too; after
+/// the one picture it is closed. `load`: what loading took since `start`, seconds. Returns whether every file
+/// is where it should be; `stops` becomes the exposure that was chosen.
 bool drawScene(RenderOptions& o, Scene& scene, const FloatImage& reference, Trace* trace,
-               RenderSession* session, std::chrono::steady_clock::time_point start, double load,
+               RenderSession& session, std::chrono::steady_clock::time_point start, double load,
                float& stops);
 
 }  // namespace whittle::cli

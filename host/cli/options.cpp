@@ -360,6 +360,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   load.defaultLights = options.defaultLights;
   if ((settings.areaLights || settings.skyLight) && !load.defaultLights) load.defaultLights = false;
   load.confined = options.confined;
+  load.log = options.log;
   load.defaultBackground = options.defaultBackground && options.background.empty();
   load.sky = settings.sky;
   if (!options.background.empty()) {

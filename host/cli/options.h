@@ -13,6 +13,7 @@
 #include "scene/notices.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
+#include "scene/work_log.h"
 
 namespace whittle::cli {
 
@@ -30,6 +31,7 @@ struct SceneOptions {
   std::string variant;                ///< of the materials: name or index; empty: none
   bool isAgain = false;               ///< the same file was loaded before: what it noticed was said then
   std::optional<MemoryLimit> memory;  ///< unset: what the machine has
+  WorkLog log = {};                   ///< see LoadOptions
   ViewpointOptions view;
   std::optional<glm::ivec2> focus;  ///< a pixel to focus on
   std::optional<Crop> crop;         ///< becomes Settings::crop when the picture's size is known

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstdio>
+#include <exception>
+#include <future>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
@@ -24,6 +26,7 @@
 #include "reference/reference.h"
 #include "render/explanation.h"
 #include "render/peak_memory.h"
+#include "render/preparation.h"
 #include "render/render_session.h"
 #include "scene/byte_counts.h"
 #include "scene/machine_memory.h"
@@ -177,12 +180,24 @@ int runFrames(RenderOptions& o) {
       first.emplace(scene);
     if (scene.meshesMove) session.sceneChanged();
     float stops = 0.0F;
-    isComplete &= drawScene(one, scene, {}, nullptr, &session, start, secondsSince(start), stops);
+    isComplete &= drawScene(one, scene, {}, nullptr, session, start, secondsSince(start), stops);
     o.settings.exposure = stops;
     o.settings.ambient = one.settings.ambient;
     o.settings.focusDistance = one.settings.focusDistance;
   }
   return isComplete ? 0 : 1;
+}
+
+/// While the scene is read. What goes wrong goes wrong again, and is said, when the picture is drawn.
+void openAhead(RenderSession& session, const RenderOptions& o) {
+  const LoggedWork work(o.scene.log, "open the device");
+  RenderHooks hooks;
+  hooks.timeStages = timesStages(o);
+  try {
+    session.open(o.settings, hooks);
+  } catch (const std::exception&) {
+    return;
+  }
 }
 
 /// Returns the exit status.
@@ -199,8 +214,14 @@ int runRender(RenderOptions& o) {
         o.reference.string(), reference.hadAlpha ? "an" : "no", o.settings.alpha ? "one" : "none"));
   std::unique_ptr<Trace> trace;
   if (!o.trace.empty()) trace = std::make_unique<Trace>();
+  if (trace)
+    o.scene.log = [&](const std::string& what, Clock::time_point began) { trace->work(what, began); };
   warnIfAny(settleKernelCache());
   prepareCpuThreads(o.settings.threads, o.settings.workGroup);
+  const auto threads = limitThreads(o.settings.threads);
+  RenderSession session;
+  std::future<void> opening;
+  if (!o.explain) opening = std::async(std::launch::async, [&] { openAhead(session, o); });
 
   Notices notices;
   notices.notes = uselessOptions(o.settings);
@@ -218,7 +239,8 @@ int runRender(RenderOptions& o) {
     if (o.outputs.empty() && o.aovs.empty() && o.stats.empty() && o.trace.empty() && !o.profile) return 0;
   }
   float stops = 0.0F;
-  return drawScene(o, scene, reference, trace.get(), nullptr, start, load, stops) ? 0 : 1;
+  if (opening.valid()) opening.wait();
+  return drawScene(o, scene, reference, trace.get(), session, start, load, stops) ? 0 : 1;
 }
 
 }  // namespace

@@ -200,9 +200,13 @@ void openDocument(Document& document, const std::filesystem::path& path, Notices
     document.budget->sawFile(size);
     document.pass(size, "its bytes");
   }
-  const auto problem = readStart(path, std::numeric_limits<std::uint64_t>::max(), document.file);
-  if (problem) document.fail(*problem);
+  {
+    const LoggedWork work(document.log, "read the file");
+    const auto problem = readStart(path, std::numeric_limits<std::uint64_t>::max(), document.file);
+    if (problem) document.fail(*problem);
+  }
   document.hold(document.file.size(), "its bytes");
+  const LoggedWork work(document.log, "read the description");
   Json json = readContainer(document);
   checkVersion(document, json);
   if (const auto found = json.find("animations"); found != json.end() && found->is_array()) {

@@ -20,6 +20,7 @@
 #include "scene/memory_budget.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
+#include "scene/work_log.h"
 
 namespace whittle::gltf {
 
@@ -57,6 +58,7 @@ struct Document {
   MemoryBudget* budget = nullptr;              ///< never null
   bool isPosed = false;                        ///< an animation will move its nodes
   bool textureLevels = false;                  ///< smaller levels of its textures will take memory
+  WorkLog log;                                 ///< see LoadOptions
   bool confined = false;                       ///< files outside `folder` are not read
   std::vector<std::filesystem::path> outside;  ///< that were asked for, each once
 

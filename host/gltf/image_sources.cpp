@@ -1,8 +1,11 @@
 #include "gltf/image_sources.h"
 
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <string_view>
 #include <tuple>
 #include <unordered_map>
@@ -90,21 +93,26 @@ void ImageSources::hold(const std::set<int>& materials) {
     if (material >= 0) collectTextures(document_.json["materials"][at(material)], textures);
   for (const std::size_t texture : textures)
     if (const int source = imageOf(document_, texture); source >= 0) images.insert(first_[at(source)]);
-  std::uint64_t pixels = 0, bytes = 0, decoder = 0;
+  std::uint64_t pixels = 0, bytes = 0;
+  std::vector<std::uint64_t> decoders;
   for (const std::size_t image : images) {
     const auto found = header(image);
     // One that is too large by itself is left out, with a warning of its own.
     if (!found || found->width > kMaxTextureSide || found->height > kMaxTextureSide) continue;
     pixels += found->pixels();
     bytes += found->decodedBytes();
-    decoder = std::max(decoder, found->decoderBytes());
+    decoders.push_back(found->decoderBytes());
   }
   if (bytes == 0) return;
   const std::string what =
       fmt::format("{}, {:.4g} megapixels in all,",
                   images.size() == 1 ? "its image" : fmt::format("its {} images", images.size()),
                   static_cast<double>(pixels) / 1e6);
-  document_.pass(bytes + decoder, what);
+  // As many as there are threads are decoded at once; the largest of them, at worst.
+  std::sort(decoders.begin(), decoders.end(), std::greater());
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  decoders.resize(std::min(threads, decoders.size()));
+  document_.pass(std::accumulate(decoders.begin(), decoders.end(), bytes), what);
   document_.hold(bytes, what);
   // A quarter of each level is the next.
   if (document_.textureLevels) document_.promise(bytes / 3, "the smaller levels of its images");

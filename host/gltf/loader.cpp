@@ -196,7 +196,10 @@ void load(Document& document, const LoadOptions& options, Scene& scene, Notices&
   settlePlace(document, hierarchy, notices);
   scene.origin = hierarchy.origin;
   std::vector<int> materials = readMaterials(document, usedMaterials(document, hierarchy), scene, notices);
-  MeshLoader(document, hierarchy, sums, std::move(materials), scene, notices).addAll();
+  {
+    const LoggedWork work(document.log, "read meshes");
+    MeshLoader(document, hierarchy, sums, std::move(materials), scene, notices).addAll();
+  }
   readCameras(document, hierarchy, scene, notices);
   readLights(document, hierarchy, scene, notices);
   readBackground(document, hierarchy.scene, scene, notices);
@@ -221,6 +224,7 @@ Scene loadFile(const std::filesystem::path& path, const LoadOptions& options, No
   MemoryBudget own(options.memory ? MemoryLimit{} : memoryLimitOfMachine());
   document.budget = options.memory ? options.memory : &own;
   document.textureLevels = options.laterTextureLevels;
+  document.log = options.log;
   try {
     gltf::openDocument(document, path, notices);
     gltf::load(document, options, scene, notices);
@@ -239,6 +243,7 @@ Scene loadFile(const std::filesystem::path& path, const LoadOptions& options, No
 
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
   Scene scene = loadFile(path, options, notices);
+  const LoggedWork work(options.log, "set up what is missing");
   returnFreedMemory();  // of the document
   addDefaults(scene, notices, options);
   return scene;

@@ -9,6 +9,7 @@
 #include "scene/memory_budget.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
+#include "scene/work_log.h"
 
 namespace whittle {
 
@@ -32,6 +33,7 @@ struct LoadOptions {
   /// that as well.
   std::uint64_t laterTriangleBytes = 0;
   bool laterTextureLevels = false;  ///< the same of smaller levels of its textures
+  WorkLog log = {};                 ///< of reading, parsing, decoding, …
 };
 
 /// Reads `path`. Throws InputError with one line if it cannot be used; says in `notices` what was ignored or

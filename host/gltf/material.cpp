@@ -151,7 +151,7 @@ std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, 
     indices[i + 1] = static_cast<int>(scene.materials.size());
     scene.materials.push_back(std::move(material));
   }
-  textures.dropUnreadTexels();
+  textures.decodeAll();
   makeRoughness(document, glossyMaterials, scene);
   if (rough > 0)
     notices.note(fmt::format("{} transmit{} light through a rough surface: drawn clear",

@@ -2,9 +2,14 @@
 #include "gltf/texture.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "gltf/container.h"
 #include "gltf/extensions.h"
@@ -60,7 +65,6 @@ TextureReader::TextureReader(Document& document, ImageSources& sources, Scene& s
       sources_(sources),
       scene_(scene),
       notices_(notices),
-      images_(child(document.json, "images").size(), kUnread),
       sourceless_(document.model.textures.size()) {}
 
 TextureSlot TextureReader::slot(const Json& owner, const char* key) {
@@ -95,7 +99,7 @@ TextureSlot TextureReader::slot(const Json& owner, const char* key) {
 
 int TextureReader::imageAt(std::size_t texture) {
   const int source = imageOf(document_, texture);
-  if (source >= 0) return decode(static_cast<std::size_t>(source));
+  if (source >= 0) return numberOf(static_cast<std::size_t>(source));
   if (sourceless_[texture]) return -1;
   sourceless_[texture] = true;
   const Json& extensions = child(document_.json["textures"][texture], "extensions");
@@ -109,19 +113,59 @@ int TextureReader::imageAt(std::size_t texture) {
   return -1;
 }
 
-int TextureReader::decode(std::size_t asked) {
+int TextureReader::numberOf(std::size_t asked) {
   const std::size_t image = sources_.firstAlike(asked);
-  if (images_[image] != kUnread) return images_[image];
-  images_[image] = -1;
-  try {
-    Image decoded = read(image);
-    decoded.name = document_.json["images"][image].value("name", decoded.name);
-    scene_.images.push_back(std::move(decoded));
-    images_[image] = static_cast<int>(scene_.images.size()) - 1;
-  } catch (const InputError& e) {
-    notices_.warn(fmt::format("image {} is left out: {}", image, e.what()));
+  const auto known = std::find(asked_.begin(), asked_.end(), image) - asked_.begin();
+  if (at(static_cast<int>(known)) == asked_.size()) asked_.push_back(image);
+  return static_cast<int>(known);
+}
+
+void TextureReader::decodeAll() {
+  struct Decoded {
+    std::optional<Image> image;
+    std::string problem;
+    int number = -1;  ///< of Scene::images
+  };
+  const LoggedWork all(document_.log, "decode images");
+  std::vector<Decoded> decoded(asked_.size());
+  std::vector<std::function<Image()>> decoders(asked_.size());
+  const auto attempt = [&](std::size_t i, const auto& work) {
+    try {
+      work();
+    } catch (const InputError& e) {
+      decoded[i].problem = e.what();
+    }
+  };
+  // Finding the bytes may read buffers and resolve names, which only one thread may do.
+  for (std::size_t i = 0; i < asked_.size(); ++i) attempt(i, [&] { decoders[i] = decoderOf(asked_[i]); });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, asked_.size(), 1),
+      [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          if (!decoders[i]) continue;
+          const LoggedWork work(document_.log, fmt::format("decode image {}", asked_[i]));
+          attempt(i, [&] { decoded[i].image = decoders[i](); });
+        }
+      },
+      tbb::simple_partitioner{});
+  for (std::size_t i = 0; i < asked_.size(); ++i) {
+    if (!decoded[i].image) {
+      notices_.warn(fmt::format("image {} is left out: {}", asked_[i], decoded[i].problem));
+      continue;
+    }
+    Image& image = *decoded[i].image;
+    image.name = document_.json["images"][asked_[i]].value("name", image.name);
+    decoded[i].number = static_cast<int>(scene_.images.size());
+    scene_.images.push_back(std::move(image));
   }
-  return images_[image];
+  const auto settle = [&](TextureSlot& slot) {
+    if (slot.used()) slot.image = decoded[at(slot.image)].number;
+  };
+  for (Material& material : scene_.materials) {
+    for (const auto slot : kTextureSlots) settle(material.*slot);
+    settle(material.occlusionTexture);
+  }
+  dropUnreadTexels();
 }
 
 void TextureReader::dropUnreadTexels() {
@@ -134,24 +178,30 @@ void TextureReader::dropUnreadTexels() {
     if (!isRead[i]) freeArray(scene_.images[i].deepTexels);
 }
 
-Image TextureReader::read(std::size_t image) {
+/// What decodes an image, from any thread; throws InputError here or there.
+std::function<Image()> TextureReader::decoderOf(std::size_t image) {
   const Json& description = document_.json["images"][image];
   const std::string label = fmt::format("{} (image {})", document_.name, image);
   if (!description.contains("uri")) {
     if (!description.contains("bufferView")) throw InputError("it has neither a uri nor a bufferView");
-    return decodeImage(viewData(document_, description["bufferView"].get<int>()), label);
+    return [bytes = viewData(document_, description["bufferView"].get<int>()), label] {
+      return decodeImage(bytes, label);
+    };
   }
   const auto& uri = description["uri"].get_ref<const std::string&>();
-  if (isDataUri(uri)) {
-    const auto bytes = decodeDataUri(uri);
-    if (!bytes) throw InputError("its data URI cannot be decoded");
-    return decodeImage(*bytes, label);
-  }
+  if (isDataUri(uri))
+    return [&uri, label] {
+      const auto bytes = decodeDataUri(uri);
+      if (!bytes) throw InputError("its data URI cannot be decoded");
+      return decodeImage(*bytes, label);
+    };
   if (isAbsoluteUri(uri))
     throw InputError(fmt::format("it is at{}; Whittle reads local files only", quotedName(uri)));
-  Image read = readPicture(sources_.file(image));
-  read.name = uri;
-  return read;
+  return [&uri, file = sources_.file(image)] {
+    Image read = readPicture(file);
+    read.name = uri;
+    return read;
+  };
 }
 
 }  // namespace whittle::gltf

@@ -11,6 +11,8 @@
 
 #include "image/exr_header.h"
 #include "image/image_codec.h"
+#include "image/plain_images.h"
+#include "image/png_writer.h"
 #include "image/radiance_file.h"
 #include "image/webp.h"
 #include "scene/input_error.h"
@@ -48,10 +50,11 @@ std::string imageFormatOf(const fs::path& path) {
   return {};
 }
 
-/// All of the file, where `isFormat` knows its first `start` bytes; what cannot be read is left to the codec,
-/// which says why.
-std::optional<std::vector<std::byte>> bytesOf(const fs::path& path, std::size_t start,
-                                              bool (*isFormat)(std::span<const std::byte>)) {
+/// All of the file, where its first bytes are of that kind; what cannot be read is left to the codec, which
+/// says why. `start`: so many tell.
+template <class IsOfKind>
+std::optional<std::vector<std::byte>> bytesIf(const fs::path& path, const IsOfKind& isOfKind,
+                                              std::size_t start = 2) {
   std::error_code error;
   std::ifstream file(path, std::ios::binary);
   std::vector<std::byte> bytes(start);
@@ -59,7 +62,7 @@ std::optional<std::vector<std::byte>> bytesOf(const fs::path& path, std::size_t 
     return static_cast<bool>(file.read(reinterpret_cast<char*>(bytes.data() + from),
                                        static_cast<std::streamsize>(bytes.size() - from)));
   };
-  if (!readTo(0) || !isFormat(bytes)) return std::nullopt;
+  if (!readTo(0) || !isOfKind(bytes)) return std::nullopt;
   const auto size = fs::file_size(path, error);
   if (error || size < bytes.size()) return std::nullopt;
   bytes.resize(size);
@@ -74,6 +77,14 @@ void refuseStreams(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   if (fs::exists(status) && !fs::is_regular_file(status))
     throw InputError(fmt::format("{}: is not a regular file", path.string()));
+}
+
+void checkSize(const fs::path& path, const CodeImage& image) {
+  const bool isPicture = image.width > 0 && image.height > 0 && (image.channels == 3 || image.channels == 4);
+  if (!isPicture || image.codes.size() != std::size_t{1} * image.width * image.height * image.channels)
+    throw std::runtime_error(fmt::format("{}: {} values are not a {}x{} picture of {} channels",
+                                         path.string(), image.codes.size(), image.width, image.height,
+                                         image.channels));
 }
 
 /// A header with what people put there; one that is longer is read by the codec alone.
@@ -134,14 +145,19 @@ FloatImage joined(const std::vector<const FloatImage*>& images) {
 
 void loadImageCodec() { codec(); }
 
+bool needsImageCodec(const fs::path& path) { return imageFormatOf(path) != "png"; }
+
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name) {
   if (isWebp(bytes)) return decodeWebp(bytes, name);
+  if (auto plain = decodePlainImage(bytes, name)) return std::move(*plain);
   return codec().decodeImage(bytes, name);
 }
 
 Image readImage(const fs::path& path) {
   refuseStreams(path);
-  if (const auto bytes = bytesOf(path, kWebpStart, isWebp)) return decodeWebp(*bytes, path.string());
+  if (const auto bytes = bytesIf(path, isWebp, kWebpStart)) return decodeWebp(*bytes, path.string());
+  if (const auto bytes = bytesIf(path, mayBePlain))
+    if (auto plain = decodePlainImage(*bytes, path.string())) return std::move(*plain);
   refuseDamagedExr(path);
   return codec().readImage(path);
 }
@@ -153,7 +169,7 @@ ImageHeader readImageHeader(const fs::path& path) {
 
 FloatImage readFloatImage(const fs::path& path) {
   refuseStreams(path);
-  if (const auto bytes = bytesOf(path, 2, isRadianceFile)) return decodeRadiance(*bytes, path.string());
+  if (const auto bytes = bytesIf(path, isRadianceFile)) return decodeRadiance(*bytes, path.string());
   refuseDamagedExr(path);
   return codec().readFloatImage(path);
 }
@@ -172,6 +188,10 @@ void writeCodes(const fs::path& path, const CodeImage& image, const ImageMetadat
     throw InputError(
         fmt::format("{}: a tone-mapped picture needs the extension .png or .jpg", path.string()));
   checkFolderWritable(path);
+  if (format == "png") {
+    checkSize(path, image);
+    return writeWholeFile(path, encodePng(image, metadata));
+  }
   codec().writeCodes(path, format, image, metadata);
 }
 

@@ -45,6 +45,8 @@ FloatImage joined(const std::vector<const FloatImage*>& images);
 /// Loads the codec now, which takes a quarter of a second: from a thread that has nothing else to do. Throws
 /// std::runtime_error where its library is missing, as do all functions below that need it.
 void loadImageCodec();
+/// Whether writing a picture of this name asks for the codec: all but PNG do.
+bool needsImageCodec(const std::filesystem::path& path);
 
 /// Whether this build has what decodes WebP: a library that is loaded now.
 bool canDecodeWebp();

@@ -2,9 +2,12 @@
 #include "render/preparation.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
+#include "bvh/uninitialized.h"
 #include "cl/device.h"
 #include "report/text.h"
 #include "scene/byte_counts.h"
@@ -98,9 +101,13 @@ void PictureBuffers::report(std::vector<BufferStats>& out) const {
 TriTree buildTree(const Scene& scene, const Decisions& decisions) {
   TriTree tree;
   if (decisions.features.has(Feature::TREE)) {
-    std::vector<glm::uvec3> corners;
-    corners.reserve(scene.triangles.size());
-    for (const auto& t : scene.triangles) corners.emplace_back(t.v0, t.v1, t.v2);
+    UninitializedVector<glm::uvec3> corners(scene.triangles.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, corners.size(), 1 << 14), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const Triangle& t = scene.triangles[i];
+        corners[i] = {t.v0, t.v1, t.v2};
+      }
+    });
     tree = buildTriTree(scene.positions, corners);
     freeArray(corners);
     returnFreedMemory();  // of its subtrees

@@ -157,6 +157,10 @@ RenderSession::~RenderSession() = default;
 RenderSession::RenderSession(RenderSession&&) noexcept = default;
 RenderSession& RenderSession::operator=(RenderSession&&) noexcept = default;
 
+void RenderSession::open(const Settings& settings, const RenderHooks& hooks) {
+  state_->openFor(settings, hooks);
+}
+
 void RenderSession::sceneChanged() {
   state_->scene.value.reset();
   state_->texels = {};

@@ -42,6 +42,9 @@ class RenderSession {
   /// Throws as render.
   std::vector<RayTree> explain(const Scene& scene, const Settings& settings, int x, int y,
                                const RenderHooks& hooks = {}, int samples = kAllSamples);
+  /// Opens the device that a render with these settings and hooks would open, so that one that follows need
+  /// not: while the scene is read, from another thread. Throws as render.
+  void open(const Settings& settings, const RenderHooks& hooks = {});
   /// The next scene differs from the last in more than that.
   void sceneChanged();
   /// Everything on the device is let go and the device closed, as after it was lost.

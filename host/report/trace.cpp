@@ -38,14 +38,13 @@ struct Microseconds {
 };
 
 /// All but the closing brace.
-void openEvent(Text& out, std::string_view name, const char* category, Trace::Track track, double start,
-               double end) {
+void openEvent(Text& out, std::string_view name, const char* category, int row, double start, double end) {
   const Microseconds from(start), length(end - start);
   fmt::format_to(std::back_inserter(out),
                  FMT_COMPILE(R"({{"ph":"X","name":"{}","cat":"{}","pid":{},"tid":{},)"
                              R"("ts":{}.{:03},"dur":{}.{:03})"),
-                 name, category, kProcess, static_cast<int>(track), from.whole, from.thousandths,
-                 length.whole, length.thousandths);
+                 name, category, kProcess, row, from.whole, from.thousandths, length.whole,
+                 length.thousandths);
 }
 
 void launchArguments(Text& out, const Trace::Launch& l, double seconds) {
@@ -62,10 +61,23 @@ double steadySeconds(Trace::Clock::time_point time) {
   return std::chrono::duration<double>(time.time_since_epoch()).count();
 }
 
-void Trace::phase(const char* name, Clock::time_point start, Track track) {
+void Trace::phase(const std::string& name, Clock::time_point start, Track track) {
   const auto now = Clock::now();
   const std::lock_guard lock(phasesMutex_);
-  phases_.push_back({name, track, steadySeconds(start), steadySeconds(now)});
+  phases_.push_back({name, static_cast<int>(track), steadySeconds(start), steadySeconds(now)});
+}
+
+void Trace::work(const std::string& name, Clock::time_point start) {
+  const auto now = Clock::now();
+  const std::thread::id self = std::this_thread::get_id();
+  const std::lock_guard lock(phasesMutex_);
+  int row = static_cast<int>(Track::Host);
+  if (self != maker_) {
+    const auto known = std::find(helpers_.begin(), helpers_.end(), self);
+    row = static_cast<int>(Track::Helpers) + static_cast<int>(known - helpers_.begin());
+    if (known == helpers_.end()) helpers_.push_back(self);
+  }
+  phases_.push_back({name, row, steadySeconds(start), steadySeconds(now)});
 }
 
 double Trace::firstSecond() const {
@@ -84,13 +96,16 @@ std::string Trace::toText() const {
   nameRow(out, static_cast<int>(Track::Host), "thread_name", "host");
   nameRow(out, static_cast<int>(Track::Compiler), "thread_name", "kernel compiler");
   nameRow(out, static_cast<int>(Track::Device), "thread_name", "device");
+  for (std::size_t i = 0; i < helpers_.size(); ++i)
+    nameRow(out, static_cast<int>(Track::Helpers) + static_cast<int>(i), "thread_name",
+            fmt::format("host, thread {}", i + 2).c_str());
   for (const auto& p : phases_) {
-    openEvent(out, p.name, "phase", p.track, p.start - origin, p.end - origin);
+    openEvent(out, p.name, "phase", p.row, p.start - origin, p.end - origin);
     append("},\n");
   }
   for (const auto& l : launches_) {
     const double start = l.start + hostMinusDevice_, end = l.end + hostMinusDevice_;
-    openEvent(out, l.stage, "kernel", Track::Device, start - origin, end - origin);
+    openEvent(out, l.stage, "kernel", static_cast<int>(Track::Device), start - origin, end - origin);
     launchArguments(out, l, start - l.enqueued);
     append("},\n");
   }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace whittle {
@@ -16,8 +17,9 @@ namespace whittle {
 class Trace {
  public:
   using Clock = std::chrono::steady_clock;
-  /// The rows of the picture. The compiler runs beside the tree builder, so it has a row of its own.
-  enum class Track { Host = 1, Compiler = 2, Device = 3 };
+  /// The rows of the picture. The compiler runs beside the tree builder, so it has a row of its own; other
+  /// threads of the host have theirs below (work).
+  enum class Track { Host = 1, Compiler = 2, Device = 3, Helpers = 4 };
 
   struct Launch {
     const char* stage = "";
@@ -36,16 +38,19 @@ class Trace {
     hostMinusDevice_ = std::min(hostMinusDevice_, record.enqueued - queued);
     launches_.push_back(record);
   }
-  /// From `start` to now; `name` is kept as it is, not copied. May be called from several threads.
-  void phase(const char* name, Clock::time_point start, Track track = Track::Host);
+  /// From `start` to now, on a row of its own kind. `name` is one that JSON need not escape. May be called
+  /// from several threads.
+  void phase(const std::string& name, Clock::time_point start, Track track = Track::Host);
+  /// The same on the row of the thread that calls: the host's for the one that made the trace.
+  void work(const std::string& name, Clock::time_point start);
 
   /// The file's text: JSON, an event to a line. Times count from the first record.
   std::string toText() const;
 
  private:
   struct Phase {
-    const char* name;
-    Track track;
+    std::string name;
+    int row;
     double start, end;
   };
 
@@ -54,6 +59,8 @@ class Trace {
   std::vector<Launch> launches_;
   double hostMinusDevice_ = std::numeric_limits<double>::infinity();  ///< seconds
   std::vector<Phase> phases_;
+  std::vector<std::thread::id> helpers_;  ///< in the order of their rows
+  std::thread::id maker_ = std::this_thread::get_id();
   std::mutex phasesMutex_;
 };
 

@@ -2,6 +2,8 @@
 #include "wavefront/device_scene.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -40,33 +42,40 @@ std::array<glm::vec3, 3> hittableCorners(const Scene& scene, std::uint32_t trian
 
 constexpr std::size_t kTrianglesAtOnce = 1 << 16;
 
+template <class Work>
+void inParallel(std::size_t count, const Work& work) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1 << 12), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
+  });
+}
+
 void setSurface(device::DeviceTriangle& triangle, const SurfaceKind& surface) {
   triangle.material = surface.material;
   triangle.flags = surface.flags;
 }
 
 /// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
-/// They are made some at a time: all of them would be more than the tree.
 Buffer uploadTriangles(Compute& compute, const Scene& scene, const std::vector<SurfaceKind>& surfaces,
                        const std::vector<std::uint32_t>& order) {
   const std::size_t all = order.size() + 1;
   Buffer buffer = compute.allocate("triangles", all * sizeof(device::DeviceTriangle));
-  std::vector<device::DeviceTriangle> out(std::min(kTrianglesAtOnce, all));
-  for (std::size_t first = 0; first < all; first += out.size()) {
-    out.assign(std::min(kTrianglesAtOnce, all - first), device::DeviceTriangle{});
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      if (first + i == order.size()) {
-        out[i].primitive = 0xffffffffU;
-        continue;
-      }
-      const std::uint32_t triangle = order[first + i];
-      const std::array<glm::vec3, 3> corners = hittableCorners(scene, triangle);
-      for (std::size_t k = 0; k < 3; ++k) copy3(out[i].v[k], corners[k]);
-      out[i].primitive = triangle;
-      setSurface(out[i], surfaces[scene.triangles[triangle].material]);
+  const auto make = [&](std::size_t at) {
+    device::DeviceTriangle out{};
+    if (at == order.size()) {
+      out.primitive = 0xffffffffU;
+      return out;
     }
-    compute.write(buffer, first * sizeof(device::DeviceTriangle), std::as_bytes(std::span(out)));
-  }
+    const std::uint32_t triangle = order[at];
+    const std::array<glm::vec3, 3> corners = hittableCorners(scene, triangle);
+    for (std::size_t k = 0; k < 3; ++k) copy3(out.v[k], corners[k]);
+    out.primitive = triangle;
+    setSurface(out, surfaces[scene.triangles[triangle].material]);
+    return out;
+  };
+  compute.writeItems<device::DeviceTriangle>(
+      buffer, all, [&](std::size_t first, std::span<device::DeviceTriangle> items) {
+        inParallel(items.size(), [&](std::size_t i) { items[i] = make(first + i); });
+      });
   return buffer;
 }
 
@@ -84,8 +93,8 @@ void changeSurfaces(Compute& compute, const Scene& scene, const std::vector<Surf
   }
 }
 
-std::vector<TreeNode> withSentinels(const TriTree& tree) {
-  std::vector<TreeNode> nodes = tree.nodes;
+UninitializedVector<TreeNode> withSentinels(const TriTree& tree) {
+  UninitializedVector<TreeNode> nodes = tree.nodes;
   const auto sentinel = ~static_cast<std::int32_t>(tree.order.size() << 4);
   for (auto& node : nodes)
     for (int c = 0; c < 2; ++c)
@@ -126,35 +135,24 @@ Buffer uploadVertices(Compute& compute, const std::string& name, const std::vect
   return compute.upload(name, used);
 }
 
-/// Two in a word, the first in its low half.
-std::vector<std::uint32_t> packedCorners(const std::vector<std::uint32_t>& corners) {
-  std::vector<std::uint32_t> words((corners.size() + 1) / 2);
-  for (std::size_t i = 0; i < corners.size(); ++i) words[i / 2] |= corners[i] << (i % 2 * 16);
-  return words;
-}
-
-/// Vertices of every triangle in leaf order, and of the degenerate one; some at a time.
+/// Vertices of every triangle in leaf order, and of the degenerate one; narrow ones two in a word, the first
+/// in its low half.
 Buffer uploadCorners(Compute& compute, const Scene& scene, const PrunedScene& pruned,
                      const std::vector<std::uint32_t>& order) {
-  constexpr std::size_t kAtOnce = 1 << 16;  // even, so that two corners in a word are of one part
   const std::size_t all = 3 * order.size() + 3, words = pruned.narrowCorners ? (all + 1) / 2 : all;
   Buffer buffer = compute.allocate("corners", words * sizeof(std::uint32_t));
-  std::vector<std::uint32_t> part;
-  std::size_t word = 0;
-  const auto write = [&] {
-    if (pruned.narrowCorners) part = packedCorners(part);
-    compute.write(buffer, word * sizeof(std::uint32_t), std::as_bytes(std::span(part)));
-    word += part.size();
-    part.clear();
+  const auto corner = [&](std::size_t at) {
+    if (at / 3 >= order.size()) return std::uint32_t{0};
+    const Triangle& t = scene.triangles[order[at / 3]];
+    const std::uint32_t v = at % 3 == 0 ? t.v0 : at % 3 == 1 ? t.v1 : t.v2;
+    return pruned.vertexOf.empty() ? v : pruned.vertexOf[v];
   };
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Triangle& t = scene.triangles[order[i]];
-    for (const std::uint32_t v : {t.v0, t.v1, t.v2})
-      part.push_back(pruned.vertexOf.empty() ? v : pruned.vertexOf[v]);
-    if ((i + 1) % kAtOnce == 0) write();
-  }
-  part.resize(part.size() + 3);
-  write();
+  compute.writeItems<std::uint32_t>(buffer, words, [&](std::size_t first, std::span<std::uint32_t> items) {
+    inParallel(items.size(), [&](std::size_t i) {
+      const std::size_t word = first + i;
+      items[i] = pruned.narrowCorners ? corner(2 * word) | corner(2 * word + 1) << 16U : corner(word);
+    });
+  });
   return buffer;
 }
 

@@ -72,6 +72,57 @@ TEST(Compute, BuffersKeepTheirContents) {
   EXPECT_TRUE(contains(message, "'numbers'")) << message;
 }
 
+/// On devices of both kinds of memory the same items, whole or in parts, come to every place.
+TEST(Compute, ItemsAreMadeInPlaceOrInParts) {
+  constexpr std::size_t kCount =
+      3'000'001;  // more than one part, and no whole number of them
+  for (const bool shares : {false, true}) {
+    DeviceInfo device = test::testDevice();
+    if (shares && !device.sharesMemory) GTEST_SKIP() << device.name << " has memory of its own";
+    device.sharesMemory = shares;
+    Compute compute(device);
+    const Buffer buffer = compute.allocate("squares", kCount * sizeof(std::uint32_t));
+    EXPECT_EQ(buffer.shared != nullptr, shares);
+    std::size_t made = 0;
+    compute.writeItems<std::uint32_t>(buffer, kCount, [&](std::size_t first, std::span<std::uint32_t> items) {
+      EXPECT_EQ(first, made);
+      made += items.size();
+      for (std::size_t i = 0; i < items.size(); ++i)
+        items[i] = static_cast<std::uint32_t>((first + i) * (first + i));
+    });
+    EXPECT_EQ(made, kCount);
+    std::vector<std::uint32_t> read(kCount);
+    compute.read(buffer, 0, buffer.bytes, read.data());
+    for (std::size_t i = 0; i < kCount; ++i) ASSERT_EQ(read[i], static_cast<std::uint32_t>(i * i)) << i;
+  }
+}
+
+TEST(Compute, SharedMemoryOutlivesItsBufferWhileALaunchUsesIt) {
+  Compute compute = test::openTestDevice();
+  const cl::Program program = compute.build(
+      "kernel void fill(global uint* out) { uint i = get_global_id(0); uint v = i;"
+      " for (uint k = 0; k < 2000; ++k) v = v * 3u + 1u; out[i] = v; }",
+      "", "a slow kernel");
+  const std::size_t count = 1 << 21;
+  const Buffer kept = compute.allocate("kept", count * sizeof(std::uint32_t));
+  {
+    const Buffer lost = compute.allocate("lost", count * sizeof(std::uint32_t));
+    for (const Buffer* buffer : {&lost, &kept}) {
+      cl::Kernel kernel(program, "fill");
+      kernel.setArg(0, buffer->handle);
+      compute.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(count));
+    }
+    compute.queue().flush();
+  }  // its memory goes when the driver is done with it, not now
+  std::vector<std::uint32_t> read(count);
+  compute.read(kept, 0, kept.bytes, read.data());
+  for (const std::size_t i : {std::size_t{0}, std::size_t{12345}, count - 1}) {
+    auto v = static_cast<std::uint32_t>(i);
+    for (int k = 0; k < 2000; ++k) v = v * 3U + 1U;
+    EXPECT_EQ(read[i], v);
+  }
+}
+
 /// The message in the first, the log in the second.
 std::pair<std::string, std::string> buildErrorOf(Compute& compute, const std::string& source,
                                                  const std::string& options) {

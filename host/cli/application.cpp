@@ -72,14 +72,14 @@ const CLI::App& chosen(const CLI::App& app) {
   throw InputError(fmt::format("{}; see `{} --help`", said, path));
 }
 
-void addCommands(CLI::App& app, int& status) {
+void addCommands(CLI::App& app, int& status, const std::vector<std::string>& arguments) {
   app.name("whittle");
   app.formatter(std::make_shared<HelpFormatter>());
   app.option_defaults()->group("Options");
   app.set_help_flag("-h,--help", "show this help; after a command, that command's");
   app.set_version_flag("--version", "whittle " WHITTLE_VERSION, "show the version");
   app.footer("Example: whittle render scenes/cornell_box.glb -o cornell_box.png");
-  addRender(app, status);
+  addRender(app, status, arguments);
   addReference(app, status);
   addInfo(app, status);
   addDevices(app, status);
@@ -101,13 +101,13 @@ int runApplication(int argc, const char* const* argv) {
   }
   CLI::App app{"Whittle: a wavefront Whitted ray tracer for glTF scenes on any OpenCL device"};
   int status = 0;
-  addCommands(app, status);
+  // `whittle -- render …`: what follows is no option of the program, which has none to speak of.
+  const int skipped = argc > 2 && argv[1] == std::string("--") ? 1 : 0;
+  addCommands(app, status, {argv + std::min(argc, 1 + skipped), argv + argc});
   if (argc < 2) {
     tellError(app.help());
     return 2;
   }
-  // `whittle -- render …`: what follows is no option of the program, which has none to speak of.
-  const int skipped = argv[1] == std::string("--") && argc > 2 ? 1 : 0;
   checkCommand(app, argv[1 + skipped]);
   try {
     app.parse(argc - skipped, argv + skipped);

@@ -4,10 +4,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 namespace whittle::cli {
 
-void addRender(CLI::App& app, int& status);
+/// `arguments`: of the program, without its name.
+void addRender(CLI::App& app, int& status, const std::vector<std::string>& arguments);
 void addReference(CLI::App& app, int& status);
 void addInfo(CLI::App& app, int& status);
 void addDevices(CLI::App& app, int& status);

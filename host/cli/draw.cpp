@@ -24,6 +24,7 @@ namespace whittle::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Files = std::vector<std::filesystem::path>;
 
 RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const FloatImage& reference,
                                 Trace* trace, RenderSession& session) {
@@ -51,6 +52,7 @@ RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const Floa
     bar.clear();
     note(text);
   };
+  if (o.checkpointing) o.checkpointing->hookInto(hooks);
   RenderResult result;
   explainingErrors(o, [&] {
     result = session.render(scene, o.settings, hooks);
@@ -91,6 +93,10 @@ std::string statsText(const RenderOptions& o, const Stats& stats) {
   s["reference"] = path(o.reference);
   s["kernels"] = path(o.kernelFolder);
   s["quiet"] = o.scene.quiet;
+  s["checkpoint"] = path(o.checkpoint.file);
+  s["every"] = o.checkpoint.every;
+  s["partial"] = o.checkpoint.partial;
+  s["resume"] = path(o.checkpoint.resume);
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -101,10 +107,11 @@ void writeResults(const RenderOptions& o, const Scene& scene, RenderResult& resu
   result.stats.settings.exposure = look.stops;
   const ImageMetadata metadata = pictureMetadata(o, result.stats);
   nowDoing("writing pictures");
-  for (const auto& file : o.outputs)
+  const bool draws = !o.checkpointing || !o.checkpointing->keepsPictureBack();
+  for (const auto& file : draws ? o.outputs : Files{})
     files.add(file, "",
               [&](const auto& to) { writePicture(to, result.radiance, result.alpha, look, metadata); });
-  for (const auto& aov : o.aovs)
+  for (const auto& aov : draws ? o.aovs : std::vector<AovOutput>{})
     files.add(aov.file, fmt::format(" ({})", aov.name), [&](const auto& to) {
       writeAov({aov.name, to}, result.radiance, result.alpha, result.aovs, metadata);
     });
@@ -171,6 +178,7 @@ bool drawScene(RenderOptions& o, Scene& scene, const FloatImage& reference, Trac
   OutputWriter files;
   writeResults(o, scene, result, start, trace, files);
   report(o, result.stats, files);
+  if (o.checkpointing) o.checkpointing->sayHowToGoOn(result.stats);
   stops = *result.stats.settings.exposure;
   return files.isComplete();
 }

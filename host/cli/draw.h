@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <functional>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/aovs.h"
+#include "cli/checkpoint.h"
 #include "cli/frames.h"
 #include "cli/options.h"
 #include "render/render_session.h"
@@ -30,9 +32,11 @@ struct RenderOptions {
   bool json = false;
   bool profile = false;
   FrameOptions frames;
+  CheckpointOptions checkpoint;
   std::string what = {};  ///< is drawn, of several pictures
 
-  std::vector<AovOutput> aovs;  ///< aovTexts, parsed
+  std::vector<AovOutput> aovs;                   ///< aovTexts, parsed
+  std::shared_ptr<Checkpointing> checkpointing;  ///< null: neither --checkpoint nor --resume
 };
 
 inline double secondsSince(std::chrono::steady_clock::time_point start) {

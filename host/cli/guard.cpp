@@ -32,6 +32,12 @@ class Ledger {
   void wrote(std::string_view file) { written_.append(written_.empty() ? file : ", " + std::string(file)); }
   void explain() { explained_ = true; }
   bool isExplained() const { return explained_; }
+  void guardIt() { isGuarded_ = true; }
+  bool isGuarded() const { return isGuarded_; }
+  void answer() { answers_ = true; }
+  bool answers() const { return answers_; }
+  void wantEnd() { isEndWanted_ = true; }
+  bool isEndWanted() const { return isEndWanted_; }
   std::string phase() const { return phase_.text(); }
   std::string written() const { return written_.text(); }
 
@@ -58,7 +64,7 @@ class Ledger {
   };
   Text<200> phase_;
   Text<3000> written_;
-  std::atomic<bool> explained_ = false;
+  std::atomic<bool> explained_ = false, isGuarded_ = false, answers_ = false, isEndWanted_ = false;
 };
 
 /// Set before the worker starts, and only ever read after: the one exception to "no globals", since every
@@ -135,7 +141,7 @@ class Guard {
       siginfo_t info{};
       const timespec step{0, 100'000'000};
       const int signal = limit_ ? ::sigtimedwait(&awaited_, &info, &step) : ::sigwaitinfo(&awaited_, &info);
-      if (std::find(kEndings.begin(), kEndings.end(), signal) != kEndings.end()) endBy(signal);
+      if (std::find(kEndings.begin(), kEndings.end(), signal) != kEndings.end()) askToEnd(signal);
       // Outside the phases it waits for people: for who reads its standard output.
       const bool starved = limit_ && starvation_.isStarved(worker_, *limit_);
       if (starved && !ledger->phase().empty()) return endStarved();
@@ -153,6 +159,14 @@ class Guard {
     while (::waitpid(worker_, nullptr, 0) < 0 && errno == EINTR) continue;
   }
 
+  void askToEnd(int signal) {
+    if (asked_ != 0 || !ledger->answers()) endBy(signal);
+    asked_ = signal;
+    ledger->wantEnd();
+    wipeProgress();
+    complain("interrupted: what there is will be written; the next signal ends at once");
+  }
+
   /// Files have no name before they are whole: nothing half done stays.
   [[noreturn]] void endBy(int signal) const {
     kill();
@@ -168,6 +182,7 @@ class Guard {
   }
 
   int explain(int status) const {
+    if (asked_ != 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) dieOf(asked_);
     if (WIFEXITED(status)) {
       // Compilers leave by exit() where they cannot write.
       if (WEXITSTATUS(status) != 0 && !ledger->isExplained())
@@ -189,6 +204,7 @@ class Guard {
   sigset_t awaited_;
   std::optional<std::uint64_t> limit_ = addressLimit();
   Starvation starvation_;
+  int asked_ = 0;  ///< the signal that the worker answers
 };
 
 }  // namespace
@@ -210,6 +226,7 @@ int runGuarded(const std::function<int()>& program) {
   if (worker == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != guard) ::_exit(1);  // it ended before the line above
+    ledger->guardIt();
   }
   return program();
 }
@@ -217,6 +234,15 @@ int runGuarded(const std::function<int()>& program) {
 void nowDoing(const std::string& phase) {
   if (ledger) ledger->doing(phase);
 }
+
+void answerSignals() {
+  if (!ledger || !ledger->isGuarded()) return;
+  // A terminal sends them to both processes.
+  for (const int signal : kEndings) std::signal(signal, SIG_IGN);
+  ledger->answer();
+}
+
+bool endIsWanted() { return ledger && ledger->isEndWanted(); }
 
 void haveExplained() {
   if (ledger) ledger->explain();

@@ -23,4 +23,10 @@ void nowDoing(const std::string& phase);    ///< "compiling kernels"
 void haveWritten(const std::string& file);  ///< whole, under its name
 void haveExplained();                       ///< an exit status other than 0; takes no memory
 
+/// By the worker: from here on the first signal that the user sends (SIGINT, SIGTERM, SIGHUP) only makes
+/// endIsWanted() true, and it is the worker's to come to an end that loses nothing. The next one ends it at
+/// once. The status is that of the signal all the same. Without a guard it does nothing.
+void answerSignals();
+bool endIsWanted();
+
 }  // namespace whittle::cli

@@ -12,6 +12,8 @@
 #include "cl/device.h"
 #include "cl/kernel_cache.h"
 #include "cli/aovs.h"
+#include "cli/application.h"
+#include "cli/checkpoint.h"
 #include "cli/commands.h"
 #include "cli/crop.h"
 #include "cli/draw.h"
@@ -50,6 +52,8 @@ OutputCheck checkOutputs(RenderOptions& o) {
   if (o.settings.alpha) check.alpha(o.outputs);
   check.text("--stats", o.stats);
   check.text("--trace", o.trace);
+  if (isStandardOutput(o.checkpoint.file)) throw InputError("--checkpoint: name a file, it is read again");
+  check.text("--checkpoint", o.checkpoint.file);
   if (!o.kernelFolder.empty() && !std::filesystem::is_directory(o.kernelFolder))
     throw InputError(fmt::format("--kernels: {} is no folder", o.kernelFolder.string()));
   return check;
@@ -200,12 +204,34 @@ void openAhead(RenderSession& session, const RenderOptions& o) {
   }
 }
 
+/// Of what is recorded of each pixel's first rays nothing outlasts the process.
+void checkResumable(const RenderOptions& o) {
+  if (!o.checkpoint.areAsked()) return;
+  const char* const name = o.checkpoint.file.empty() ? "--resume" : "--checkpoint";
+  if (o.frames.frames) throw InputError(fmt::format("{}: is for one picture, --frames draws several", name));
+  if (o.settings.bounceAov || o.settings.costAov)
+    throw InputError(fmt::format("{}: not with --aov bounce, cost or all", name));
+}
+
+/// The render that --resume names, without a scene: as if somebody had typed its command again.
+int runAgain(const std::vector<std::string>& arguments) {
+  std::vector<const char*> words{"whittle"};
+  for (const std::string& word : arguments) words.push_back(word.c_str());
+  return runApplication(static_cast<int>(words.size()), words.data());
+}
+
 /// Returns the exit status.
 int runRender(RenderOptions& o) {
-  if (o.frames.frames) return runFrames(o);
+  if (const auto again = resumedArguments(o.checkpoint, o.scene); !again.empty()) return runAgain(again);
+  if (o.frames.frames) {
+    checkResumable(o);
+    return runFrames(o);
+  }
   const auto start = Clock::now();
   OutputCheck check = checkOutputs(o);
   for (const auto& aov : o.aovs) askForAovs(o.settings, {aov.name});
+  checkResumable(o);
+  o.settings.resumable = o.checkpoint.areAsked();
   FloatImage reference = readReference(o);
   if (!o.reference.empty() && reference.hadAlpha != o.settings.alpha)
     warn(fmt::format(
@@ -233,6 +259,9 @@ int runRender(RenderOptions& o) {
   for (const auto& file : notices.files) check.reads(file);
   if (o.settings.crop && !o.reference.empty()) reference = cutOut(reference, *o.settings.crop);
   if (trace) trace->phase("load", start);
+  if (o.checkpoint.areAsked())
+    o.checkpointing =
+        std::make_shared<Checkpointing>(o.checkpoint, identityOf(o.scene, scene, o.settings, notices.files));
   const double load = secondsSince(start);
   if (o.explain) {
     tellExplanation(scene, o);
@@ -245,8 +274,9 @@ int runRender(RenderOptions& o) {
 
 }  // namespace
 
-void addRender(CLI::App& app, int& status) {
+void addRender(CLI::App& app, int& status, const std::vector<std::string>& arguments) {
   auto o = std::make_shared<RenderOptions>();
+  o->checkpoint.arguments = arguments;
   CLI::App* c = app.add_subcommand("render", "render a scene on an OpenCL device");
   addSceneOptions(*c, o->scene);
   c->option_defaults()->group("Output");
@@ -282,6 +312,7 @@ void addRender(CLI::App& app, int& status) {
   addErrorOptions(*c, o->settings);
   addFile(*c, "--reference", o->reference, "FILE",
           "measure the true RMSE against this .exr after each pass; the summary has the last, --stats all");
+  addCheckpointOptions(*c, o->checkpoint);
   addDeviceOptions(*c, o->settings);
   addFile(*c, "--kernels", o->kernelFolder, "FOLDER",
           "read kernels from here, not from the program (for developers)");

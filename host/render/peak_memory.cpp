@@ -80,9 +80,10 @@ std::uint64_t uploadBytes(const RenderPlan& plan, std::uint64_t tree, std::uint6
 std::uint64_t pictureBytes(const Settings& settings) {
   constexpr std::uint64_t kOrder = sizeof(std::uint32_t), kPicture = 3 * sizeof(float),
                           kAlpha = sizeof(float);
-  const std::uint64_t adaptive = settings.adaptive ? kOrder : 0;
-  return pixelsOf(settings) * (filmPlanes(settings.raysPerPixel, settings.alpha) * sizeof(float) + kOrder +
-                               adaptive + kPicture + (settings.alpha ? kAlpha : 0));
+  const std::uint64_t passes = settings.adaptive || settings.resumable ? kOrder : 0;
+  const std::uint64_t film = filmPlanes(settings, settings.alpha) * sizeof(float);
+  const std::uint64_t saved = settings.resumable ? 2 * film : 0;  // on this side, and as a file's bytes
+  return pixelsOf(settings) * (film + saved + kOrder + passes + kPicture + (settings.alpha ? kAlpha : 0));
 }
 
 std::uint64_t peakBytes(const Scene& scene, const RenderPlan& plan, std::uint64_t loadBytes) {

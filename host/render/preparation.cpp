@@ -70,7 +70,7 @@ PictureBuffers allocatePicture(Compute& compute, const Settings& settings, const
   const Region region = tracedRegion(settings);
   const std::size_t pixels = region.pixels();
   const std::size_t film = pixels * sizeof(float) *
-                           filmPlanes(settings.raysPerPixel, decisions.features.has(Feature::COVERAGE)),
+                           filmPlanes(settings, decisions.features.has(Feature::COVERAGE)),
                     order = pixels * sizeof(std::uint32_t);
   const std::size_t aovs = decisions.features.has(Feature::AOVS) ? pixels * AOV_PLANES * sizeof(float) : 0;
   const DeviceInfo& device = compute.device();
@@ -82,7 +82,7 @@ PictureBuffers allocatePicture(Compute& compute, const Settings& settings, const
   picture.film = compute.allocate("film", film);
   picture.order = compute.allocate("pixelOrder", order);
   picture.aovs = compute.allocate("aovs", aovs);
-  if (settings.adaptive) {
+  if (settings.adaptive || settings.resumable) {
     picture.passOrder = compute.allocate("passOrder", order);
     picture.passBlocks =
         compute.allocate("passBlocks", SampleCounts(pixels).blocks() * sizeof(std::uint32_t));

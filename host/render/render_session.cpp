@@ -95,7 +95,7 @@ struct RenderSession::State {
   struct PictureKey {
     Region region;
     std::size_t planes = 0;
-    bool aovs = false, adaptive = false;
+    bool aovs = false, passes = false;
     bool operator==(const PictureKey&) const = default;
   };
 
@@ -197,8 +197,8 @@ OpenDevice& RenderSession::State::openFor(const Settings& settings, const Render
 void RenderSession::State::providePicture(Compute& compute, const Settings& settings,
                                           const Decisions& decisions) {
   const PictureKey wanted{tracedRegion(settings),
-                          filmPlanes(settings.raysPerPixel, decisions.features.has(Feature::COVERAGE)),
-                          decisions.features.has(Feature::AOVS), settings.adaptive};
+                          filmPlanes(settings, decisions.features.has(Feature::COVERAGE)),
+                          decisions.features.has(Feature::AOVS), settings.adaptive || settings.resumable};
   work.picture = !picture.serves(wanted);
   if (work.picture)
     picture.remake(wanted,
@@ -317,7 +317,7 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
     recorder.emplace(compute, *kept.queues.value, decisions.features, settings);
   wavefront.observe(recorder ? &*recorder : nullptr);
   SamplingLoop loop(compute, wavefront, settings, hooks,
-                    FilmBuffers{tracedRegion(settings).pixels(), picture.order, picture.film,
+                    FilmBuffers{tracedRegion(settings).pixels(), picture.order, picture.film, picture.aovs,
                                 picture.passOrder, picture.passBlocks});
   BiasBound bias(scene, settings);
   const auto resultSoFar = [&] {

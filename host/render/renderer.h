@@ -17,11 +17,12 @@
 namespace whittle {
 
 struct OpenDevice;
+struct RenderState;
 
 struct RenderProgress {
   double samplesDone = 0.0;   ///< a batch under way counts in part
   double samplesTotal = 0.0;  ///< as far as limits and targets let one guess
-  double seconds = 0.0;       ///< since the first ray
+  double seconds = 0.0;       ///< since the first ray, without what lay between sittings
   std::uint64_t rays = 0;
 };
 
@@ -64,6 +65,13 @@ struct RenderHooks {
   /// Null, or the scene that is rendered: what is not read after the upload may be taken out of it
   /// (uploadScene).
   Scene* consumed = nullptr;
+  /// Null, or what an earlier render of the same scene, settings and device left: this one goes on from there
+  /// (Settings::resumable).
+  const RenderState* resumed = nullptr;
+  /// With Settings::resumable gets the state every `checkpointSeconds` or so, and when the render ends, for
+  /// whatever reason but an error. May be empty.
+  std::function<void(RenderState)> checkpoint;
+  double checkpointSeconds = 60.0;
   /// Opened before, with timeStages, in place of the device that the settings name; null: the render opens
   /// its own.
   OpenDevice* device = nullptr;

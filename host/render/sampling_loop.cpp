@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cl/error.h"
+#include "scene/input_error.h"
 
 namespace whittle {
 namespace {
@@ -29,6 +31,10 @@ constexpr double kLateShare = 0.1, kLateSeconds = 0.25;
 std::uint64_t shareOf(std::uint64_t samples, double share) {
   return std::max<std::uint64_t>(1,
                                  static_cast<std::uint64_t>(std::ceil(static_cast<double>(samples) * share)));
+}
+
+std::string nameOf(const DeviceInfo& device) {
+  return fmt::format("{}, {} {}", device.name, device.platform, device.version);
 }
 
 double endedInAll(const RayTally& tally) {
@@ -53,23 +59,68 @@ bool SamplingLoop::looks() const {
 }
 
 void SamplingLoop::run(const std::function<void()>& passDone) {
-  start_ = Clock::now();
-  for (auto passes = nextPasses(); !passes.empty();) {
-    bool stopped = false;
+  start_ = saved_ = Clock::now();
+  if (hooks_.resumed) takeOver(*hooks_.resumed);
+  if (pending_.empty() && !hasMetTarget()) pending_ = nextPasses();
+  while (!pending_.empty()) {
     const double began = elapsed();
-    for (const SamplePass& pass : passes) {
-      stopped = !tracePass(pass);
-      if (stopped) break;
-    }
-    if (passes.size() == 1) passSamples_ = passes.front().samples, passSeconds_ = elapsed() - began;
+    const SamplePass& first = pending_.front();
+    const std::uint32_t samples = first.samples;
+    const bool isUniform = pending_.size() == 1 && first.blocks.size() == counts_.blocks();
+    const bool stopped = !tracePending();
+    if (isUniform) passSamples_ = samples, passSeconds_ = elapsed() - began;
     if (looks()) look();
-    if (stopped || (!error_.empty() && meetsTarget(settings_, error_.back()))) break;
-    passes = nextPasses();
-    if (!passes.empty()) passDone();
+    if (stopped || hasMetTarget()) break;
+    pending_ = nextPasses();
+    if (!pending_.empty()) passDone();
   }
   clTry("waiting for the last kernels", [&] { compute_.queue().finish(); });
   seconds_ = elapsed();
+  if (hooks_.checkpoint) save();
   if (error_.empty() && counts_.least() >= 2) look();
+}
+
+bool SamplingLoop::hasMetTarget() const { return !error_.empty() && meetsTarget(settings_, error_.back()); }
+
+void SamplingLoop::takeOver(const RenderState& state) {
+  if (state.counts.size() != counts_.blocks() || state.film.size() * sizeof(float) != buffers_.film.bytes ||
+      state.aovs.size() * sizeof(float) != buffers_.aovs.bytes)
+    throw InputError("the picture that is to be gone on with has another size or other layers");
+  for (std::size_t b = 0; b < state.counts.size(); ++b) counts_.add(b, state.counts[b]);
+  pending_ = state.pending;
+  if (state.device != nameOf(compute_.device()) && hooks_.note)
+    hooks_.note(fmt::format("the picture began on {}: it will have that one's bits in part", state.device));
+  compute_.write(buffers_.film, state.film.data());
+  if (buffers_.aovs) compute_.write(buffers_.aovs, state.aovs.data());
+  wavefront_.countOn(state.tally, state.nonFinite);
+  endedShare_ = state.endedShare;
+  error_ = state.error;
+  before_ = state.seconds;
+  // What the next passes are decided by.
+  if (pending_.empty() && looks()) look();
+}
+
+RenderState SamplingLoop::state() {
+  RenderState state;
+  for (std::size_t b = 0; b < counts_.blocks(); ++b) state.counts.push_back(counts_.ofBlock(b));
+  state.pending = pending_;
+  state.film.resize(buffers_.film.bytes / sizeof(float));
+  compute_.read(buffers_.film, 0, buffers_.film.bytes, state.film.data());
+  state.aovs.resize(buffers_.aovs.bytes / sizeof(float));
+  if (buffers_.aovs) compute_.read(buffers_.aovs, 0, buffers_.aovs.bytes, state.aovs.data());
+  state.device = nameOf(compute_.device());
+  state.tally = wavefront_.tally();
+  state.nonFinite = wavefront_.nonFinite();
+  state.endedShare = endedShare_;
+  state.seconds = seconds();
+  state.error = error_;
+  return state;
+}
+
+void SamplingLoop::save() {
+  const HostWork work(hooks_.trace, "save the state");
+  hooks_.checkpoint(state());
+  saved_ = Clock::now();
 }
 
 std::vector<SamplePass> SamplingLoop::nextPasses() const {
@@ -99,7 +150,7 @@ double SamplingLoop::growth(double most) const {
 std::uint32_t SamplingLoop::nextSamples() const {
   const auto total = static_cast<std::uint32_t>(settings_.raysPerPixel);
   const std::uint32_t done = counts_.least();
-  if (!looks()) return total;
+  if (!looks() && !hooks_.checkpoint) return total - done;
   const auto wanted = static_cast<std::uint32_t>(std::min<std::uint64_t>(
       shareOf(done, growth(hooks_.shown && passSeconds_ < kShownSeconds ? kShownGrowth : 1.0)),
       total - done));
@@ -109,7 +160,20 @@ std::uint32_t SamplingLoop::nextSamples() const {
   return fitting >= wanted ? wanted : static_cast<std::uint32_t>(std::max(0.0, fitting));
 }
 
-bool SamplingLoop::tracePass(const SamplePass& pass) {
+/// False: stopped, and what is left is still pending.
+bool SamplingLoop::tracePending() {
+  while (!pending_.empty()) {
+    const bool isWhole = tracePass(pending_.front());
+    if (pending_.front().blocks.empty()) pending_.erase(pending_.begin());
+    if (std::exchange(isPausing_, false))
+      save();
+    else if (!isWhole)
+      return false;
+  }
+  return true;
+}
+
+bool SamplingLoop::tracePass(SamplePass& pass) {
   if (pass.blocks.size() == counts_.blocks()) {
     const Buffer none;
     return traceWith(pass, {buffers_.order, none, static_cast<std::uint32_t>(counts_.pixels()),
@@ -127,13 +191,14 @@ bool SamplingLoop::tracePass(const SamplePass& pass) {
                           pass.firstSample, pass.samples});
 }
 
-/// False: stopped, with the samples of the blocks that were finished.
-bool SamplingLoop::traceWith(const SamplePass& pass, const TracePass& launches) {
+/// False: stopped. The blocks that were finished are no longer in the pass.
+bool SamplingLoop::traceWith(SamplePass& pass, const TracePass& launches) {
   const double endedBefore = endedInAll(wavefront_.tally());
   const KeepGoing ask{[this](double samples, bool between) { return keepGoing(samples, between); }};
   const std::uint32_t pixels = wavefront_.trace(launches, ask);
   const std::size_t blocks = (pixels + FILM_BLOCK - 1) / FILM_BLOCK;
   for (std::size_t b = 0; b < blocks; ++b) counts_.add(pass.blocks[b], pass.samples);
+  pass.blocks.erase(pass.blocks.begin(), pass.blocks.begin() + static_cast<std::ptrdiff_t>(blocks));
   // A pixel's mean holds a sample with the weight 1 / (samples in the end), which is at most 1 /
   // (samples so far).
   const double weight = 1.0 / (static_cast<double>(counts_.pixels()) * (pass.firstSample + pass.samples));
@@ -149,6 +214,11 @@ double SamplingLoop::endedPerSample() const {
 bool SamplingLoop::keepGoing(double samplesOfPass, bool betweenBatches) {
   reportProgress(static_cast<double>(counts_.total()) + samplesOfPass);
   if (hooks_.keepGoing && !hooks_.keepGoing()) return false;
+  if (hooks_.checkpoint && betweenBatches && samplesOfPass > 0.0 &&
+      std::chrono::duration<double>(Clock::now() - saved_).count() >= hooks_.checkpointSeconds) {
+    isPausing_ = true;
+    return false;
+  }
   const double limit = settings_.timeLimit, now = elapsed();
   if (limit <= 0.0 || now <= limit) return true;
   if (counts_.least() > 0)
@@ -168,7 +238,7 @@ void SamplingLoop::reportProgress(double samples) {
   if (!hooks_.progress) return;
   const RayTally& t = wavefront_.tally();
   hooks_.progress(
-      {samples, std::max(expectedSamples(), samples), elapsed(), t.primary + t.impulse + t.shadow});
+      {samples, std::max(expectedSamples(), samples), seconds(), t.primary + t.impulse + t.shadow});
 }
 
 /// Of the picture, what the whole will take by the last estimate (the error falls with the root of the
@@ -190,7 +260,7 @@ void SamplingLoop::look() {
   const bool estimates = counts_.least() >= 2;
   if (!estimates && !hooks_.reference) return;
   const double now = seconds_ > 0.0 ? seconds_ : elapsed();
-  ErrorPoint point{now, counts_.mean(), 0.0, {}, 0.0};
+  ErrorPoint point{before_ + now, counts_.mean(), 0.0, {}, 0.0};
   double total = 0.0;
   if (estimates) variances_.assign(counts_.blocks(), 0.0);
   eachPart([&](const FilmPart& part) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cl/program.h"
+#include "render/render_state.h"
 #include "render/renderer.h"
 #include "wavefront/film.h"
 #include "wavefront/sample_counts.h"
@@ -14,12 +15,13 @@
 
 namespace whittle {
 
-/// The picture on the device. With Settings::adaptive `passOrder` and `passBlocks` have room for all pixels
-/// and blocks.
+/// The picture on the device. With Settings::adaptive or resumable `passOrder` and `passBlocks` have room for
+/// all pixels and blocks.
 struct FilmBuffers {
   std::size_t pixels;
   const Buffer& order;
   const Buffer& film;
+  const Buffer& aovs;
   const Buffer& passOrder;
   const Buffer& passBlocks;
 };
@@ -30,12 +32,13 @@ class SamplingLoop {
                const FilmBuffers& buffers);
 
   /// Renders. Each pixel gets its first sample whatever the time limit; after that nothing goes on for longer
-  /// than a tenth of it, or a quarter of a second.
+  /// than a tenth of it, or a quarter of a second. Goes on from RenderHooks::resumed where there is one.
   /// `passDone`: called after each pass that another follows.
   void run(const std::function<void()>& passDone);
 
   const SampleCounts& counts() const { return counts_; }
-  double seconds() const { return seconds_ > 0.0 ? seconds_ : elapsed(); }  ///< that run took, or has so far
+  /// That run took, or has so far, with those of earlier sittings.
+  double seconds() const { return before_ + (seconds_ > 0.0 ? seconds_ : elapsed()); }
   const std::vector<ErrorPoint>& error() const { return error_; }
   /// The picture, after run.
   FloatImage picture();
@@ -53,8 +56,13 @@ class SamplingLoop {
   std::vector<SamplePass> nextPasses() const;
   double growth(double most) const;
   std::uint32_t nextSamples() const;
-  bool tracePass(const SamplePass& pass);
-  bool traceWith(const SamplePass& pass, const TracePass& launches);
+  void takeOver(const RenderState& state);
+  RenderState state();
+  void save();
+  bool hasMetTarget() const;
+  bool tracePending();
+  bool tracePass(SamplePass& pass);
+  bool traceWith(SamplePass& pass, const TracePass& launches);
   bool keepGoing(double samplesOfPass, bool betweenBatches);
   void reportProgress(double samples);
   double expectedSamples() const;
@@ -70,7 +78,10 @@ class SamplingLoop {
   const RenderHooks& hooks_;
   FilmBuffers buffers_;
   SampleCounts counts_;
-  Clock::time_point start_{};
+  std::vector<SamplePass> pending_;  ///< decided on and not traced yet
+  Clock::time_point start_{}, saved_{};
+  double before_ = 0.0;     ///< seconds of earlier sittings
+  bool isPausing_ = false;  ///< the wavefront was told to stop, for the state to be saved
   double seconds_ = 0.0;
   double passSeconds_ = 0.0;       ///< the last uniform pass
   std::uint32_t passSamples_ = 0;  ///< of each pixel, then

@@ -110,6 +110,8 @@ struct Settings {
   /// The same of its rays: at which bounce its light came, and what the searches for their hits visited.
   bool bounceAov = false, costAov = false;
   bool errorAov = false;          ///< keep the standard error of each pixel
+  /// Keep what a later render needs to go on from where this one ends (RenderHooks::checkpoint).
+  bool resumable = false;
   std::optional<float> exposure;  ///< stops, for .png/.jpg only; unset: chosen where the picture does not fit
   ToneMap toneMap = ToneMap::Auto;  ///< for .png/.jpg only
   Bloom bloom;                      ///< for .png/.jpg only

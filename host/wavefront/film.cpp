@@ -39,8 +39,9 @@ std::size_t placeOf(std::uint32_t pixel, const FloatImage& image) {
   return static_cast<std::size_t>(y) * image.width + x;
 }
 
-std::size_t filmPlanes(int samples, bool coverage) {
-  if (samples > 1) return coverage ? FILM_PLANES_COVERAGE : FILM_PLANES;
+std::size_t filmPlanes(const Settings& settings, bool coverage) {
+  // What is resumed may get more samples.
+  if (settings.raysPerPixel > 1 || settings.resumable) return coverage ? FILM_PLANES_COVERAGE : FILM_PLANES;
   return coverage ? FILM_PLANES_OF_ONE_COVERAGE : FILM_PLANES_OF_ONE;
 }
 

@@ -11,8 +11,8 @@
 
 namespace whittle {
 
-/// Planes of the film of a picture with this many samples for each pixel; `coverage`: with the transmittance.
-std::size_t filmPlanes(int samples, bool coverage);
+/// Planes of the film of such a picture; `coverage`: with the transmittance.
+std::size_t filmPlanes(const Settings& settings, bool coverage);
 
 /// A part of the film, pixels `first` and on in the order of makePixelOrder: as much as is looked at at once.
 struct FilmPart {

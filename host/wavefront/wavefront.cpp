@@ -295,4 +295,13 @@ std::uint32_t Wavefront::nonFinite() {
   return count;
 }
 
+void Wavefront::countOn(const RayTally& tally, std::uint32_t nonFinite) {
+  tally_ = tally;
+  clTry("setting a counter", [&] {
+    compute_.queue().enqueueWriteBuffer(counters_.handle, CL_TRUE,
+                                        COUNTER_NONFINITE * sizeof(std::uint32_t), sizeof(nonFinite),
+                                        &nonFinite);
+  });
+}
+
 }  // namespace whittle

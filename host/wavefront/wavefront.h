@@ -68,6 +68,8 @@ class Wavefront {
 
   const RayTally& tally() const { return tally_; }
   std::uint32_t nonFinite();
+  /// Counts on from what an earlier wavefront had counted.
+  void countOn(const RayTally& tally, std::uint32_t nonFinite);
 
  private:
   /// The part of a pass that a queue's rays stand for, for progress.

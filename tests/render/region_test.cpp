@@ -148,7 +148,7 @@ TEST(Region, OfAHugePictureTakesItsOwnMemoryAlone) {
   const RenderResult part = renderOnDevice(scene, settings);
   std::uint64_t film = 0;
   for (const BufferStats& buffer : part.stats.buffers) film += buffer.group == "film" ? buffer.bytes : 0;
-  const std::uint64_t planes = filmPlanes(1, false) + 1 + 8;  // sums, order, auxiliary outputs
+  const std::uint64_t planes = filmPlanes(settings, false) + 1 + 8;  // sums, order, auxiliary outputs
   EXPECT_LE(film, 10000 * sizeof(float) * (planes + 1)) << "and coverage at most";
   settings.crop = Region{14050, 9020, 1, 1};
   const RenderResult pixel = renderOnDevice(scene, settings);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "gltf/builder.h"
+#include "support/mutation.h"
 
 namespace whittle {
 namespace {
@@ -135,6 +136,52 @@ fs::path withoutTangents(const fs::path& file, const test::TemporaryFolder& fold
 }
 
 /// What an exporter wrote with MikkTSpace is what generated tangents must come close to, handedness included.
+/// The JSON of a .gltf or .glb file.
+test::Json descriptionOf(const fs::path& file) {
+  const std::string bytes = test::fileText(file);
+  if (!bytes.starts_with("glTF")) return test::Json::parse(bytes);
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes.data() + 12, sizeof size);
+  return test::Json::parse(bytes.substr(20, size));
+}
+
+/// Of lists with indices, which those of compressed files all are.
+std::uint64_t trianglesAnnounced(const test::Json& json) {
+  std::uint64_t corners = 0;
+  for (const test::Json& node : json["nodes"])
+    if (node.contains("mesh"))
+      for (const test::Json& primitive : json["meshes"][node["mesh"].get<std::size_t>()]["primitives"])
+        corners += json["accessors"][primitive["indices"].get<std::size_t>()]["count"].get<std::uint64_t>();
+  return corners / 3;
+}
+
+/// Decoders change the order of triangles, not their number, and what they unpack is no nonsense.
+TEST(SharedScenes, CompressedFilesHoldWhatTheyAnnounce) {
+  const fs::path root = fs::path(WHITTLE_SHARED) / "compressed";
+  if (!fs::exists(root)) GTEST_SKIP() << "no compressed scenes at " << root;
+  int checked = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    if (entry.path().extension() != ".glb" && entry.path().extension() != ".gltf") continue;
+    SCOPED_TRACE(entry.path());
+    ++checked;
+    const test::Json json = descriptionOf(entry.path());
+    Notices notices;
+    Scene scene;
+    try {
+      scene = loadGltf(entry.path(), {}, notices);
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("Whittle was built without"), std::string::npos) << e.what();
+      continue;
+    }
+    EXPECT_EQ(scene.triangles.size() + scene.droppedTriangles, trianglesAnnounced(json));
+    expectConsistent(scene);
+    if (canDecodeWebp()) {
+      EXPECT_EQ(scene.images.size(), json.value("images", test::Json::array()).size());
+    }
+  }
+  EXPECT_GE(checked, 5);
+}
+
 TEST(SharedScenes, GeneratedTangentsAgreeWithTheExporters) {
   const fs::path root = fs::path(WHITTLE_SHARED) / "gltf";
   if (!fs::exists(root)) GTEST_SKIP() << "no shared scenes at " << root;

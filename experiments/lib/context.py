@@ -38,10 +38,10 @@ class Context:
         self.record = machine.record(self.whittle, given)
         self.environment = dict(os.environ, POCL_CACHE_DIR=str(self.folder / "kernels"))
 
-    def inside(self, name):
-        """The same for one experiment: OUT/NAME is its folder."""
+    def inside(self, name, arguments=()):
+        """The same for one experiment: OUT/NAME is its folder; arguments: those of its own."""
         own = copy.copy(self)
-        own.out = self.out / name
+        own.out, own.own = self.out / name, list(arguments)
         return own
 
     def pick(self, quick, full):

@@ -217,6 +217,26 @@ UninitializedVector<Bvh8Node> join(Part& top) {
   return nodes;
 }
 
+/// The floats of these leaves, the first of them at `out`.
+void fillLeaves(std::span<const Leaf> leaves, const TriTree& tree, const CornersOf& cornersOf, float* out) {
+  const std::size_t from = leaves.front().first;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves.size(), 256), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const auto [first, count] = leaves[i];
+      float* const to = out + 9 * (first - from);
+      for (std::uint32_t lane = 0; lane < count; ++lane) {
+        const std::array<glm::vec3, 3> corners = cornersOf(tree.order[first + lane]);
+        for (std::uint32_t k = 0; k < 3; ++k)
+          for (std::uint32_t a = 0; a < 3; ++a)
+            to[(3 * k + a) * count + lane] = corners[k][static_cast<int>(a)];
+      }
+    }
+  });
+}
+
+/// Behind the last leaf, for the lanes beyond its count.
+constexpr float kBeyond[kLanes] = {};
+
 }  // namespace
 
 Bvh8 buildBvh8(const TriTree& tree) {
@@ -234,25 +254,20 @@ void eachLeafPart(const Bvh8& wide, const TriTree& tree, const CornersOf& corner
   const std::vector<Leaf> leaves = leavesInOrder(wide);
   UninitializedVector<float> part;
   for (std::size_t begin = 0; begin < leaves.size(); begin += kAtOnce) {
-    const std::size_t end = std::min(begin + kAtOnce, leaves.size());
-    const std::size_t from = leaves[begin].first, to = leaves[end - 1].first + leaves[end - 1].count;
+    const std::span<const Leaf> some(&leaves[begin], std::min(kAtOnce, leaves.size() - begin));
+    const std::size_t from = some.front().first, to = some.back().first + some.back().count;
     part.resize(9 * (to - from));
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 256), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        const auto [first, count] = leaves[i];
-        float* const out = part.data() + 9 * (first - from);
-        for (std::uint32_t lane = 0; lane < count; ++lane) {
-          const std::array<glm::vec3, 3> corners = cornersOf(tree.order[first + lane]);
-          for (std::uint32_t k = 0; k < 3; ++k)
-            for (std::uint32_t a = 0; a < 3; ++a)
-              out[(3 * k + a) * count + lane] = corners[k][static_cast<int>(a)];
-        }
-      }
-    });
+    fillLeaves(some, tree, cornersOf, part.data());
     take(9 * from, part);
   }
-  const float beyond[kLanes] = {};
-  take(leafFloats(tree) - kLanes, beyond);
+  take(leafFloats(tree) - kLanes, kBeyond);
+}
+
+void makeLeaves(const Bvh8& wide, const TriTree& tree, const CornersOf& cornersOf, std::span<float> out) {
+  const std::vector<Leaf> leaves = leavesInOrder(wide);
+  if (!leaves.empty())
+    fillLeaves(leaves, tree, cornersOf, out.data() + std::size_t{9} * leaves.front().first);
+  std::copy_n(kBeyond, kLanes, out.end() - kLanes);
 }
 
 }  // namespace whittle

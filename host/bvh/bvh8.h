@@ -50,5 +50,7 @@ using TakeLeafFloats = std::function<void(std::size_t first, std::span<const flo
 /// in their order: all of them are more than the tree. Parallel within a part.
 void eachLeafPart(const Bvh8& wide, const TriTree& tree, const CornersOf& cornersOf,
                   const TakeLeafFloats& take);
+/// The same floats, made in their places: `out` has leafFloats(tree).
+void makeLeaves(const Bvh8& wide, const TriTree& tree, const CornersOf& cornersOf, std::span<float> out);
 
 }  // namespace whittle

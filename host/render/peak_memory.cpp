@@ -2,8 +2,13 @@
 // their order.
 #include "render/peak_memory.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <string_view>
+#include <vector>
 
 #include "bvh/prim_ref.h"
 #include "bvh/tri_tree.h"
@@ -33,6 +38,15 @@ std::uint64_t uploadedImages(const Scene& scene, const RenderPlan& plan) {
   for (const std::uint32_t i : plan.pruned.images)
     bytes += bytesOf(scene.images[i].texels) + bytesOf(scene.images[i].deepTexels);
   return bytes;
+}
+
+/// Those that are on both sides at once: as many as there are threads, the largest of them at worst.
+std::uint64_t imagesOnTheWay(const Scene& scene) {
+  std::vector<std::uint64_t> bytes;
+  for (const Image& image : scene.images) bytes.push_back(bytesOf(image.texels) + bytesOf(image.deepTexels));
+  std::sort(bytes.begin(), bytes.end(), std::greater());
+  bytes.resize(std::min(bytes.size(), static_cast<std::size_t>(tbb::this_task_arena::max_concurrency())));
+  return std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0});
 }
 
 std::uint64_t pixelsOf(const Settings& s) { return tracedRegion(s).pixels(); }
@@ -98,9 +112,8 @@ std::uint64_t peakBytes(const Scene& scene, const RenderPlan& plan, std::uint64_
   const std::uint64_t attributes =
       bytesOf(scene.normals) + bytesOf(scene.tangents) + bytesOf(scene.uv0) + bytesOf(scene.uv1);
   const std::uint64_t whole = bytesOf(scene), drawn = whole - attributes - uploadedImages(scene, plan);
-  std::uint64_t largest = std::max(bytesOf(scene.normals), bytesOf(scene.tangents));
-  for (const Image& image : scene.images)
-    largest = std::max(largest, bytesOf(image.texels) + bytesOf(image.deepTexels));
+  const std::uint64_t largest =
+      std::max({bytesOf(scene.normals), bytesOf(scene.tangents), imagesOnTheWay(scene)});
   const std::uint64_t uploading = drawn + device.all() + largest;
   // The order of the pixels is made on this side; the picture comes when everything is still there.
   // Of each pixel what PixelRecorder holds, and its pictures.

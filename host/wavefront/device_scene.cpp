@@ -196,11 +196,13 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
                                 wide.depth, BVH8_DEPTH));
     d.bvh8Nodes = compute.upload("bvh8Nodes", wide.nodes);
     d.leaves = compute.allocate("leaves", leafFloats(tree) * sizeof(float));
-    eachLeafPart(
-        wide, tree, [&](std::uint32_t t) { return hittableCorners(scene, t); },
-        [&](std::size_t first, std::span<const float> part) {
-          compute.write(d.leaves, first * sizeof(float), std::as_bytes(part));
-        });
+    const CornersOf corners = [&](std::uint32_t t) { return hittableCorners(scene, t); };
+    if (d.leaves.shared)
+      makeLeaves(wide, tree, corners, {reinterpret_cast<float*>(d.leaves.shared), leafFloats(tree)});
+    else
+      eachLeafPart(wide, tree, corners, [&](std::size_t first, std::span<const float> part) {
+        compute.write(d.leaves, first * sizeof(float), std::as_bytes(part));
+      });
   }
   d.tables = tablesOf(scene, pruned);
   d.triangles = uploadTriangles(compute, scene, d.tables.surfaces, tree.order);

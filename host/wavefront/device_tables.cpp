@@ -1,6 +1,9 @@
 // See device_tables.h.
 #include "wavefront/device_tables.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -178,6 +181,25 @@ DeviceTables tablesOf(const Scene& scene, const PrunedScene& pruned) {
   return tables;
 }
 
+namespace {
+
+/// The texels of an image and its smaller levels; in place where the memory is shared, and then from any
+/// thread.
+void uploadRange(Compute& compute, const Buffer& buffer, const Image& image, const TexelRange& r) {
+  std::size_t at = std::size_t{r.first} * 4;
+  const auto write = [&](std::span<const std::byte> level) {
+    if (buffer.shared)
+      std::copy(level.begin(), level.end(), buffer.shared + at);
+    else
+      compute.write(buffer, at, level);
+    at += level.size();
+  };
+  write(r.isDeep ? std::as_bytes(std::span(image.deepTexels)) : std::as_bytes(std::span(image.texels)));
+  eachSmallerLevel(image, r.levels, r.isDeep, write);
+}
+
+}  // namespace
+
 Buffer uploadTexels(Compute& compute, const Scene& scene, const std::vector<TexelRange>& ranges,
                     Scene* consumed) {
   static_assert(std::endian::native == std::endian::little);
@@ -186,22 +208,28 @@ Buffer uploadTexels(Compute& compute, const Scene& scene, const std::vector<Texe
     all = std::max(all, std::size_t{r.first} * 4 + 4 * wordsOf(scene.images[r.image], r.isDeep, r.levels));
   Buffer buffer = compute.allocate("texels", all);
   if (!buffer.handle.get()) return buffer;  // sizes alone are asked for
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const TexelRange& r = ranges[i];
-    const Image& image = scene.images[r.image];
-    std::size_t at = std::size_t{r.first} * 4;
-    const auto write = [&](std::span<const std::byte> level) {
-      compute.write(buffer, at, level);
-      at += level.size();
-    };
-    write(r.isDeep ? std::as_bytes(std::span(image.deepTexels)) : std::as_bytes(std::span(image.texels)));
-    eachSmallerLevel(image, r.levels, r.isDeep, write);
-    const bool isLast = i + 1 == ranges.size() || ranges[i + 1].image != r.image;
-    if (!isLast || !consumed) continue;
-    Image& taken = consumed->images[r.image];
+  // The ranges of an image lie behind one another.
+  std::vector<std::size_t> begins;
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    if (i == 0 || ranges[i - 1].image != ranges[i].image) begins.push_back(i);
+  const auto upload = [&](std::size_t k) {
+    const std::size_t end = k + 1 < begins.size() ? begins[k + 1] : ranges.size();
+    for (std::size_t i = begins[k]; i < end; ++i)
+      uploadRange(compute, buffer, scene.images[ranges[i].image], ranges[i]);
+    if (!consumed) return;
+    Image& taken = consumed->images[ranges[begins[k]].image];
     freeArray(taken.texels);
     freeArray(taken.deepTexels);
-  }
+  };
+  if (buffer.shared)
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, begins.size(), 1),
+        [&](const auto& range) {
+          for (std::size_t k = range.begin(); k < range.end(); ++k) upload(k);
+        },
+        tbb::simple_partitioner{});
+  else
+    for (std::size_t k = 0; k < begins.size(); ++k) upload(k);
   return buffer;
 }
 

@@ -30,6 +30,9 @@ std::vector<float> leavesOf(const Bvh8& wide, const TriTree& tree, const test::T
     all.insert(all.end(), part.begin(), part.end());
   });
   EXPECT_EQ(all.size(), leafFloats(tree));
+  std::vector<float> inPlace(leafFloats(tree), -1.0F);
+  makeLeaves(wide, tree, cornersOf, inPlace);
+  EXPECT_EQ(inPlace, all);
   return all;
 }
 

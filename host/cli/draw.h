@@ -31,6 +31,7 @@ struct RenderOptions {
   bool profile = false;
   FrameOptions frames;
   std::string what = {};  ///< is drawn, of several pictures
+  bool isLater = false;   ///< of those: not the first
 
   std::vector<AovOutput> aovs;  ///< aovTexts, parsed
 };

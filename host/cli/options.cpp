@@ -320,7 +320,6 @@ void lightByBackground(Scene& scene, const Settings& settings, MemoryBudget& bud
 /// A studio's walls send some of its light back, and a sky of ours lights what lies in the shade, unless it
 /// does so by rays.
 void settleAmbient(const SceneOptions& options, const Scene& scene, Settings& settings, Notices& notices) {
-  if (options.isAgain) return;  // settled for the first frame
   const bool isUnset = options.ambient && !given(options.ambient);
   const bool isStudio = isUnset && scene.hasStudioLights, isSky = isUnset && scene.sky;
   if (hasSkyLight(scene) || !(isStudio || isSky || !settings.ambient)) return;
@@ -335,7 +334,7 @@ void settleAmbient(const SceneOptions& options, const Scene& scene, Settings& se
 }  // namespace
 
 Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings& settings,
-                MemoryBudget& budget, Notices& notices) {
+                MemoryBudget& budget, Notices& notices, OpenFile* file) {
   nowDoing("reading the scene");
   const bool hasSize = given(options.width) == given(options.height);
   budget.promiseProgram(costs.programBytes);
@@ -364,7 +363,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
       throw InputError("--background and --sky: give one of the two");
     load.sky = SkyChoice{true, {}};
   }
-  Scene scene = loadGltf(options.file, load, notices);
+  Scene scene = file ? file->load(options.file, load, notices) : loadGltf(options.file, load, notices);
   if (settings.areaLights && !addSurfaceLight(scene))
     notices.warn("--area-lights: no surface of the scene glows");
   settleSize(options, scene, settings);
@@ -377,7 +376,6 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   settleFocus(options, scene, settings, notices);
   settleMirrorRoughness(options, settings);
   nowDoing("");
-  if (options.isAgain) return scene;
   for (const auto& text : notices.warnings) warn(text);
   if (!options.quiet)
     for (const auto& text : notices.notes) note(text);

@@ -8,11 +8,14 @@
 
 #include "cli/crop.h"
 #include "cli/viewpoint.h"
-#include "gltf/loader.h"
 #include "scene/memory_budget.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
+
+namespace whittle {
+class OpenFile;
+}
 
 namespace whittle::cli {
 
@@ -27,7 +30,6 @@ struct SceneOptions {
   bool quiet = false;
   std::optional<double> time;         ///< seconds, see LoadOptions
   std::string animation;              ///< name or index; empty: the first
-  bool isAgain = false;               ///< the same file was loaded before: what it noticed was said then
   std::optional<MemoryLimit> memory;  ///< unset: what the machine has
   ViewpointOptions view;
   std::optional<glm::ivec2> focus;  ///< a pixel to focus on
@@ -66,8 +68,8 @@ void promisePicture(MemoryBudget& budget, const CommandCosts& costs, const Setti
 
 /// Loads, applies the background, prints notices to standard error (quiet: warnings only). Settles what the
 /// settings leave to the scene: one side of the picture where the other alone was given, and the camera.
-/// Throws InputError before it takes what `budget` does not allow.
+/// Throws InputError before it takes what `budget` does not allow. `file`: stays open for other times.
 Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings& settings,
-                MemoryBudget& budget, Notices& notices);
+                MemoryBudget& budget, Notices& notices, OpenFile* file = nullptr);
 
 }  // namespace whittle::cli

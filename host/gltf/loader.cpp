@@ -188,8 +188,8 @@ void readSky(const Document& document, int sceneIndex, Scene& scene, Notices& no
   if (!isList || !isInRange(sky)) {
     notices.warn(
         fmt::format("extras.whittle.sky of the scene is not [elevation, azimuth] or with a turbidity: "
-                    "0 to 90 degrees, degrees, {} to {}; it is left out",
-                    kLeastTurbidity, kMostTurbidity));
+                    "{} to 90 degrees, degrees, {} to {}; it is left out",
+                    kLowestSun, kLeastTurbidity, kMostTurbidity));
     return;
   }
   scene.sky = sky;

@@ -8,12 +8,18 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/ray_triangle.h"
 #include "scene/camera.h"
 
 namespace whittle {
 
-glm::dvec3 pointUnder(const Scene& scene, const Camera& camera, double aspect, double x, double y,
-                      const glm::dvec3& otherwise) {
+namespace {
+
+struct EyeRay {
+  glm::dvec3 origin, direction;
+};
+
+EyeRay eyeRay(const Camera& camera, double aspect, double x, double y) {
   const double half = halfHeight(camera, aspect);
   const glm::dvec3 across =
       glm::dvec3(camera.right) * ((2 * x - 1) * half * aspect) + glm::dvec3(camera.up) * ((1 - 2 * y) * half);
@@ -22,26 +28,31 @@ glm::dvec3 pointUnder(const Scene& scene, const Camera& camera, double aspect, d
     origin += across;
   else
     direction = glm::normalize(direction + across);
+  return {origin, direction};
+}
+
+}  // namespace
+
+std::optional<glm::dvec3> pointUnder(const Scene& scene, const Camera& camera, double aspect, double x,
+                                     double y) {
+  const EyeRay ray = eyeRay(camera, aspect, x, y);
   constexpr double inf = std::numeric_limits<double>::infinity();
-  // Möller and Trumbore 1997, in double.
   const auto nearest = [&](const tbb::blocked_range<std::size_t>& range, double least) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const Triangle& t = scene.triangles[i];
-      const glm::dvec3 a(scene.positions[t.v0]), e1 = glm::dvec3(scene.positions[t.v1]) - a,
-                                                 e2 = glm::dvec3(scene.positions[t.v2]) - a,
-                                                 p = glm::cross(direction, e2);
-      const double det = glm::dot(e1, p);
-      if (det == 0.0) continue;
-      const glm::dvec3 s = origin - a, q = glm::cross(s, e1);
-      const double u = glm::dot(s, p) / det, v = glm::dot(direction, q) / det, d = glm::dot(e2, q) / det;
-      if (u >= 0 && v >= 0 && u + v <= 1 && d > 0 && d < least) least = d;
-    }
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      least = std::min(least, distanceTo(scene, scene.triangles[i], ray.origin, ray.direction));
     return least;
   };
   const double hit = tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, scene.triangles.size(), 4096),
                                           inf, nearest, [](double a, double b) { return std::min(a, b); });
-  if (std::isfinite(hit)) return origin + direction * hit;
-  return origin + direction * std::max(1e-6, glm::dot(otherwise - origin, direction));
+  if (!std::isfinite(hit)) return std::nullopt;
+  return ray.origin + ray.direction * hit;
+}
+
+glm::dvec3 pointUnder(const Scene& scene, const Camera& camera, double aspect, double x, double y,
+                      const glm::dvec3& otherwise) {
+  if (const auto seen = pointUnder(scene, camera, aspect, x, y)) return *seen;
+  const EyeRay ray = eyeRay(camera, aspect, x, y);
+  return ray.origin + ray.direction * std::max(1e-6, glm::dot(otherwise - ray.origin, ray.direction));
 }
 
 float focusOn(const Scene& scene, const Camera& camera, double aspect, double x, double y) {

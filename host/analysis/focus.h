@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -9,7 +10,10 @@
 namespace whittle {
 
 /// Where the ray through (x, y), in [0, 1]² from the picture's top left, first meets a triangle, in the
-/// scene's coordinates; else the point of it nearest to `otherwise`. Linear in the triangles, in parallel.
+/// scene's coordinates; nothing where it meets none. Linear in the triangles, in parallel.
+std::optional<glm::dvec3> pointUnder(const Scene& scene, const Camera& camera, double aspect, double x,
+                                     double y);
+/// The same; where it meets none, the point of it nearest to `otherwise`.
 glm::dvec3 pointUnder(const Scene& scene, const Camera& camera, double aspect, double x, double y,
                       const glm::dvec3& otherwise);
 

@@ -119,14 +119,24 @@ Background parseBackground(const std::string& text, MemoryBudget& budget, Notice
 std::optional<SkyChoice> parseSky(const std::string& option, const std::string& text) {
   if (text == "auto") return std::nullopt;
   if (text == "none") return SkyChoice{true, {}};
-  const std::vector<double> numbers = parseNumbers(option, text, 2, 3);
+  std::vector<double> numbers;
+  try {
+    numbers = parseNumbers(option, text, 2, 3);
+  } catch (const InputError&) {
+    throw InputError(
+        fmt::format("{}: '{}' is neither none nor auto nor ELEVATION,AZIMUTH or ELEVATION,AZIMUTH,TURBIDITY, "
+                    "such as 30,120 or 30,120,6",
+                    option, text));
+  }
   SkyChoice choice;
   choice.sky.elevation = numbers[0];
   choice.sky.azimuth = numbers[1];
   if (numbers.size() == 3) choice.sky.turbidity = numbers[2];
   if (!isInRange(choice.sky))
-    throw InputError(fmt::format("{}: '{}': the elevation is 0 to 90 degrees, the turbidity {} to {}", option,
-                                 text, kLeastTurbidity, kMostTurbidity));
+    throw InputError(fmt::format(
+        "{}: '{}': the elevation is {} (the end of civil twilight) to 90 degrees, the turbidity {} "
+        "to {}",
+        option, text, kLowestSun, kLeastTurbidity, kMostTurbidity));
   return choice;
 }
 

@@ -35,7 +35,7 @@ RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const Floa
   hooks.timeStages = timesStages(o);
   hooks.trace = trace;
   hooks.compiler = "/proc/self/exe";
-  hooks.consumed = &scene;
+  if (!o.frames.frames) hooks.consumed = &scene;
   std::future<void> codec;  // loaded while kernels are compiled
   hooks.phase = [&](const std::string& text) {
     bar.phase(text);
@@ -138,7 +138,7 @@ void report(const RenderOptions& o, const Stats& stats, const OutputWriter& file
 void warnOfResult(const RenderOptions& o, const Stats& stats) {
   if (stats.nonFinite > 0)
     warn(fmt::format("{} samples were not finite and count as black", formatInteger(stats.nonFinite)));
-  if (o.scene.isAgain) return;  // said of the first frame
+  if (o.isLater) return;  // said of the first
   if (stats.ended.cutOff > 0.0 && !std::isfinite(stats.biasBound))
     warn(
         "no bound on what --cutoff left out: a light lies on a surface that scatters it, a "

@@ -34,6 +34,7 @@ struct RenderOptions {
   FrameOptions frames;
   CheckpointOptions checkpoint;
   std::string what = {};  ///< is drawn, of several pictures
+  bool isLater = false;   ///< of those: not the first
 
   std::vector<AovOutput> aovs;                   ///< aovTexts, parsed
   std::shared_ptr<Checkpointing> checkpointing;  ///< null: neither --checkpoint nor --resume

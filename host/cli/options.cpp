@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <limits>
 
-#include "analysis/ambient.h"
 #include "analysis/feature_needs.h"
 #include "analysis/focus.h"
 #include "cli/background.h"
@@ -16,6 +15,7 @@
 #include "cli/feature_names.h"
 #include "cli/guard.h"
 #include "cli/option_kinds.h"
+#include "cli/settle_ambient.h"
 #include "cli/speech.h"
 #include "gltf/loader.h"
 #include "report/text.h"
@@ -32,6 +32,7 @@ namespace {
 /// Of --memory-limit: whoever asks for less has left out the unit.
 constexpr std::uint64_t kLeastLimit = 1'000'000;
 constexpr double kLongestTime = 1e6;  // seconds
+constexpr double kLeastBloomRadius = 1e-3;
 /// Surfaces smoother than this look like mirrors, glossy or not.
 constexpr float kGlossyMirrorRoughness = 0.03F;
 
@@ -121,16 +122,20 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
   addText(
       c, "--bloom",
       [&s](const std::string& word) {
-        constexpr double kLargestRadius = 10.0;
-        const auto numbers = parseNumbers("--bloom", word, 1, 2, 0, kLargestRadius);
-        if (numbers[0] > 1.0)
-          throw InputError(fmt::format("--bloom: '{}': the strength is a share, 0 to 1", word));
+        const auto numbers = parseNumbers("--bloom", word, 1, 2);
+        const double radius = numbers.size() == 2 ? numbers[1] : kLeastBloomRadius;
+        if (!(numbers[0] >= 0.0 && numbers[0] <= 1.0 && radius >= kLeastBloomRadius && radius <= 1.0))
+          throw InputError(fmt::format(
+              "--bloom: '{}': the strength is a share of the light, 0 to 1, the radius one of the "
+              "picture's height, {} to 1",
+              word, kLeastBloomRadius));
         s.bloom = Bloom{static_cast<float>(numbers[0])};
         if (numbers.size() == 2) s.bloom.radius = static_cast<float>(numbers[1]);
       },
       {"STRENGTH[,RADIUS]",
-       "of .png and .jpg: spread this share of the light about where it is, as lenses and eyes do, as far as "
-       "RADIUS times the picture's height [0.1]; a region's comes from the region alone",
+       "of .png and .jpg: spread this share of the light (0 to 1; 0.05 is much) about where it is, as lenses "
+       "and eyes do, as far as RADIUS times the picture's height (0.001 to 1) [0.1]; a region's comes from "
+       "the region alone",
        "0"});
   c.add_flag(
       "--dither,!--no-dither", s.dither,
@@ -141,9 +146,9 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
   constexpr double kLargest = std::numeric_limits<double>::max();
   addText(c, "--sky", [&s](const std::string& word) { s.sky = parseSky("--sky", word); },
           {"ELEVATION,AZIMUTH[,TURBIDITY]",
-           "a clear sky and its sun around the scene: degrees above the horizon, degrees from +Z towards +X, "
-           "haze from 1.7 to 10 [3]; in W/(m² sr), which --exposure auto makes fit; none: leave out the "
-           "file's",
+           "a clear sky and its sun around the scene: degrees above the horizon (-6 to 90; below 0 is dusk), "
+           "degrees from +Z towards +X, haze from 1.7 to 10 [3]; in W/(m² sr), which --exposure auto makes "
+           "fit; none: leave out the file's",
            "auto: as the file says"});
   addReal(
       c, "--background-rotation", s.backgroundRotation, -kLargest, kLargest, "DEGREES",
@@ -174,7 +179,7 @@ void addPictureOptions(CLI::App& c, Settings& s, SceneOptions& o) {
       [&s](const std::string& word) { s.ambient = parseRealOrAuto("--ambient", word, 0, kLargestAmbient); },
       {"auto|X",
        "Whitted's ambient term: radiance in W/(m² sr) that surfaces receive from all sides, unshadowed; "
-       "auto: a tenth of the scene's light",
+       "auto: a tenth of the scene's light; with --sky as much of it as what is seen gets of the sky",
        "0; auto with the studio's lights or a sky"});
   addReal(c, "--cutoff", s.cutoff, 0, kLargestCutoff, "T",
           "trace no mirror or glass ray whose share of the picture (throughput) is at most this in every "
@@ -264,10 +269,15 @@ std::vector<std::string> uselessOptions(const Settings& settings) {
 
 namespace {
 
+double aspectOf(const Settings& settings) { return static_cast<double>(settings.width) / settings.height; }
+const Camera& cameraOf(const Scene& scene, const Settings& settings) {
+  return scene.cameras[findCamera(scene, settings.camera)];
+}
+
 /// The side of the picture that was not given.
 void settleSize(const SceneOptions& options, const Scene& scene, Settings& settings) {
   if (given(options.width) == given(options.height)) return;
-  const Camera& camera = scene.cameras[findCamera(scene, settings.camera)];
+  const Camera& camera = cameraOf(scene, settings);
   const double aspect = camera.aspect > 0.0F ? static_cast<double>(camera.aspect) : kUsualAspect;
   const auto side = [](double pixels) {
     return static_cast<int>(std::clamp(std::round(pixels), 1.0, 65535.0));
@@ -303,9 +313,7 @@ void settleFocus(const SceneOptions& options, const Scene& scene, Settings& sett
                                    settings.width, settings.height));
     x = place(column, settings.width), y = place(row, settings.height);
   }
-  const Camera& camera = scene.cameras[findCamera(scene, settings.camera)];
-  settings.focusDistance =
-      focusOn(scene, camera, static_cast<double>(settings.width) / settings.height, x, y);
+  settings.focusDistance = focusOn(scene, cameraOf(scene, settings), aspectOf(settings), x, y);
   notices.note(fmt::format("focused on {:.4g} m", *settings.focusDistance));
 }
 
@@ -319,25 +327,10 @@ void lightByBackground(Scene& scene, const Settings& settings, MemoryBudget& bud
     notices.note("--ambient adds nothing: --sky-light takes its place");
 }
 
-/// A studio's walls send some of its light back, and a sky of ours lights what lies in the shade, unless it
-/// does so by rays.
-void settleAmbient(const SceneOptions& options, const Scene& scene, Settings& settings, Notices& notices) {
-  if (options.isAgain) return;  // settled for the first frame
-  const bool isUnset = options.ambient && !given(options.ambient);
-  const bool isStudio = isUnset && scene.hasStudioLights, isSky = isUnset && scene.sky;
-  if (hasSkyLight(scene) || !(isStudio || isSky || !settings.ambient)) return;
-  settings.ambient = automaticAmbient(scene);
-  notices.note(fmt::format("--ambient auto{}: {} W/(m² sr)",
-                           isStudio ? ", with the studio's lights"
-                           : isSky  ? ", with the sky"
-                                    : "",
-                           *settings.ambient));
-}
-
 }  // namespace
 
 Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings& settings,
-                MemoryBudget& budget, Notices& notices) {
+                MemoryBudget& budget, Notices& notices, OpenFile* file) {
   nowDoing("reading the scene");
   const bool hasSize = given(options.width) == given(options.height);
   budget.promiseProgram(costs.programBytes);
@@ -352,7 +345,7 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   load.laterTextureLevels = settings.textureFilter != TextureFilter::None;
   load.camera = settings.camera;
   load.viewpoint = chosenViewpoint(options.view);
-  if (hasSize) load.aspect = static_cast<double>(settings.width) / settings.height;
+  if (hasSize) load.aspect = aspectOf(settings);
   if (!options.scene.empty()) load.sceneName = options.scene;
   load.time = options.time;
   if (!options.animation.empty()) load.animation = options.animation;
@@ -368,12 +361,12 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
       throw InputError("--background and --sky: give one of the two");
     load.sky = SkyChoice{true, {}};
   }
-  Scene scene = loadGltf(options.file, load, notices);
+  Scene scene = file ? file->load(options.file, load, notices) : loadGltf(options.file, load, notices);
   if (settings.areaLights && !addSurfaceLight(scene))
     notices.warn("--area-lights: no surface of the scene glows");
   settleSize(options, scene, settings);
   if (!hasSize) holdPicture();
-  if (!settings.clipFar && liesBeyondFarPlane(scene, scene.cameras[findCamera(scene, settings.camera)]))
+  if (!settings.clipFar && liesBeyondFarPlane(scene, cameraOf(scene, settings)))
     notices.note("something lies beyond the camera's zfar; --clip-far leaves it out");
   applyBackground(scene, options.background, settings, budget, notices);
   if (settings.skyLight) lightByBackground(scene, settings, budget, notices);
@@ -381,7 +374,6 @@ Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings
   settleFocus(options, scene, settings, notices);
   settleMirrorRoughness(options, settings);
   nowDoing("");
-  if (options.isAgain) return scene;
   for (const auto& text : notices.warnings) warn(text);
   if (!options.quiet)
     for (const auto& text : notices.notes) note(text);

@@ -8,12 +8,15 @@
 
 #include "cli/crop.h"
 #include "cli/viewpoint.h"
-#include "gltf/loader.h"
 #include "scene/memory_budget.h"
 #include "scene/notices.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 #include "scene/work_log.h"
+
+namespace whittle {
+class OpenFile;
+}
 
 namespace whittle::cli {
 
@@ -29,7 +32,6 @@ struct SceneOptions {
   std::optional<double> time;         ///< seconds, see LoadOptions
   std::string animation;              ///< name or index; empty: the first
   std::string variant;                ///< of the materials: name or index; empty: none
-  bool isAgain = false;               ///< the same file was loaded before: what it noticed was said then
   std::optional<MemoryLimit> memory;  ///< unset: what the machine has
   WorkLog log = {};                   ///< see LoadOptions
   ViewpointOptions view;
@@ -69,8 +71,8 @@ void promisePicture(MemoryBudget& budget, const CommandCosts& costs, const Setti
 
 /// Loads, applies the background, prints notices to standard error (quiet: warnings only). Settles what the
 /// settings leave to the scene: one side of the picture where the other alone was given, and the camera.
-/// Throws InputError before it takes what `budget` does not allow.
+/// Throws InputError before it takes what `budget` does not allow. `file`: stays open for other times.
 Scene loadScene(const SceneOptions& options, const CommandCosts& costs, Settings& settings,
-                MemoryBudget& budget, Notices& notices);
+                MemoryBudget& budget, Notices& notices, OpenFile* file = nullptr);
 
 }  // namespace whittle::cli

@@ -25,6 +25,7 @@
 #include "cli/outputs.h"
 #include "cli/progress_bar.h"
 #include "cli/speech.h"
+#include "gltf/loader.h"
 #include "reference/reference.h"
 #include "render/explanation.h"
 #include "render/peak_memory.h"
@@ -109,7 +110,7 @@ void tellExplanation(const Scene& scene, const RenderOptions& o) {
 RenderOptions optionsOf(const RenderOptions& o, const Frames& frames, int frame) {
   RenderOptions one = o;
   one.scene.time = frames.secondsOf(frame);
-  one.scene.isAgain = frame > frames.first;
+  one.isLater = frame > frames.first;
   one.what = fmt::format("frame {} of {}", frame - frames.first + 1, frames.count());
   for (auto& file : one.outputs) file = frameFile(file, frame);
   for (auto& aov : one.aovs) aov.file = frameFile(aov.file, frame);
@@ -131,13 +132,9 @@ void checkFrameOptions(const RenderOptions& o) {
 class FirstFrame {
  public:
   explicit FirstFrame(const Scene& scene)
-      : cameras_(scene.cameras),
-        lights_(scene.lights),
-        background_(scene.background),
-        origin_(scene.origin) {}
+      : cameras_(scene.cameras), lights_(scene.lights), origin_(scene.origin) {}
 
   void keepIn(Scene& scene) const {
-    scene.background = background_;
     if (scene.hasStudioLights) scene.lights = lights_;  // directional: they have no place
     if (!scene.hasOurCamera) return;
     scene.cameras = cameras_;
@@ -148,13 +145,38 @@ class FirstFrame {
  private:
   std::vector<Camera> cameras_;
   std::vector<Light> lights_;
-  Background background_;
   glm::dvec3 origin_;
 };
 
-/// One picture after the other on an open device: what does not move stays there. Each has the bits of the
-/// picture at its --time, but for what is chosen to suit the scene (exposure, ambient light, focus, studio, a
-/// camera that is not the file's), which is that of the first.
+/// What a scene keeps in memory for the next frame, though the device has it too.
+std::uint64_t bytesKept(const Scene& scene) {
+  std::uint64_t bytes = sizeof(glm::vec3) * scene.normals.size() + sizeof(glm::vec4) * scene.tangents.size() +
+                        sizeof(glm::vec2) * (scene.uv0.size() + scene.uv1.size());
+  for (const Image& image : scene.images)
+    bytes += image.texels.size() + sizeof(std::uint16_t) * image.deepTexels.size();
+  return bytes;
+}
+
+/// Settles what the settings leave to the scene, for all frames.
+Scene loadFirstFrame(RenderOptions& o, const Frames& frames, OpenFile& file, OutputCheck& check) {
+  RenderOptions one = optionsOf(o, frames, frames.first);
+  Notices notices;
+  notices.notes = uselessOptions(one.settings);
+  MemoryBudget budget = budgetOf(one.scene);
+  Scene scene = loadScene(one.scene, {kTriangleBytes, kRuntimeBytes, pictureBytes}, one.settings, budget,
+                          notices, &file);
+  budget.hold(bytesKept(scene), "--frames: what the frames share");
+  for (const auto& read : notices.files) check.reads(read);
+  if (!file.moves() && frames.count() > 1)
+    warn(fmt::format("--frames: no mesh, camera or light of the scene moves: the {} pictures are alike",
+                     frames.count()));
+  o.settings = one.settings;
+  return scene;
+}
+
+/// One picture after the other of an open file on an open device: what does not move stays where it is. Each
+/// has the bits of the picture at its --time, but for what is chosen to suit the scene (exposure, ambient
+/// light, focus, studio, a camera that is not the file's), which is that of the first.
 int runFrames(RenderOptions& o) {
   Frames frames = *o.frames.frames;
   frames.perSecond = o.frames.perSecond;
@@ -167,27 +189,21 @@ int runFrames(RenderOptions& o) {
   warnIfAny(settleKernelCache());
   prepareCpuThreads(o.settings.threads, o.settings.workGroup);
   RenderSession session;
-  std::optional<FirstFrame> first;
+  OpenFile file;
+  auto start = Clock::now();
+  Scene scene = loadFirstFrame(o, frames, file, check);
+  const FirstFrame first(scene);
   bool isComplete = true;
-  for (int frame = frames.first; frame <= frames.last; ++frame) {
-    const auto start = Clock::now();
+  for (int frame = frames.first; frame <= frames.last; ++frame, start = Clock::now()) {
     RenderOptions one = optionsOf(o, frames, frame);
-    Notices notices;
-    notices.notes = uselessOptions(one.settings);
-    MemoryBudget budget = budgetOf(one.scene);
-    Scene scene =
-        loadScene(one.scene, {kTriangleBytes, kRuntimeBytes, pictureBytes}, one.settings, budget, notices);
-    for (const auto& file : notices.files) check.reads(file);
-    if (first)
-      first->keepIn(scene);
-    else
-      first.emplace(scene);
-    if (scene.meshesMove) session.sceneChanged();
+    if (one.isLater) {
+      file.moveTo(*one.scene.time, scene);
+      first.keepIn(scene);
+      if (scene.meshesMove) session.meshesMoved();
+    }
     float stops = 0.0F;
     isComplete &= drawScene(one, scene, {}, nullptr, session, start, secondsSince(start), stops);
     o.settings.exposure = stops;
-    o.settings.ambient = one.settings.ambient;
-    o.settings.focusDistance = one.settings.focusDistance;
   }
   return isComplete ? 0 : 1;
 }

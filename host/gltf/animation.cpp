@@ -172,7 +172,7 @@ Posed poseNodes(Document& document, const std::optional<std::string>& wanted, do
   return posed;
 }
 
-bool moveMeshes(const Document& document, const Hierarchy& hierarchy, std::vector<bool> moved) {
+Movement movementOf(const Document& document, const Hierarchy& hierarchy, std::vector<bool> moved) {
   // Nodes outside the scene may be joints: all that hang on what moves.
   std::vector<int> stack;
   for (std::size_t i = 0; i < moved.size(); ++i)
@@ -186,14 +186,17 @@ bool moveMeshes(const Document& document, const Hierarchy& hierarchy, std::vecto
       stack.push_back(below);
     }
   }
-  return std::any_of(hierarchy.shown.begin(), hierarchy.shown.end(), [&](int shown) {
+  Movement movement;
+  for (const int shown : hierarchy.shown) {
     const Node& node = document.nodes[at(shown)];
-    if (node.mesh < 0) return false;
-    if (moved[at(shown)]) return true;
-    if (node.skin < 0) return false;
+    movement.eyesOrLamps |= moved[at(shown)] && (node.camera >= 0 || node.light >= 0);
+    if (node.mesh < 0) continue;
+    movement.meshes |= moved[at(shown)];
+    if (node.skin < 0) continue;
     const auto& joints = document.model.skins[at(node.skin)].joints;
-    return std::any_of(joints.begin(), joints.end(), [&](int joint) { return moved[at(joint)]; });
-  });
+    movement.meshes |= std::any_of(joints.begin(), joints.end(), [&](int joint) { return moved[at(joint)]; });
+  }
+  return movement;
 }
 
 }  // namespace whittle::gltf

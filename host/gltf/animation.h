@@ -26,8 +26,12 @@ struct Posed {
 /// parts of its transforms. Throws InputError where there is no such animation, or it cannot be read.
 Posed poseNodes(Document& document, const std::optional<std::string>& wanted, double seconds);
 
-/// Whether a mesh that is shown moves, bends or changes its shape when these nodes do: with them, below them,
-/// or by a joint of its skin.
-bool moveMeshes(const Document& document, const Hierarchy& hierarchy, std::vector<bool> moved);
+/// What of that which is shown moves.
+struct Movement {
+  bool meshes = false;       ///< or bends, or changes its shape
+  bool eyesOrLamps = false;  ///< cameras and lights
+};
+/// When these nodes do: with them, below them, or by a joint of its skin.
+Movement movementOf(const Document& document, const Hierarchy& hierarchy, std::vector<bool> moved);
 
 }  // namespace whittle::gltf

@@ -3,9 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <new>
 #include <set>
+#include <utility>
 
 #include "gltf/animation.h"
 #include "gltf/bake.h"
@@ -23,6 +27,13 @@
 namespace whittle {
 
 namespace gltf {
+
+/// What another pose needs of the first one.
+struct Loaded {
+  Movement movement;
+  GeometrySums sums;
+  std::vector<int> materials;  ///< see readMaterials
+};
 
 namespace {
 
@@ -179,26 +190,28 @@ void readSky(const Document& document, int sceneIndex, Scene& scene, Notices& no
   if (!isList || !isInRange(sky)) {
     notices.warn(
         fmt::format("extras.whittle.sky of the scene is not [elevation, azimuth] or with a turbidity: "
-                    "0 to 90 degrees, degrees, {} to {}; it is left out",
-                    kLeastTurbidity, kMostTurbidity));
+                    "{} to 90 degrees, degrees, {} to {}; it is left out",
+                    kLowestSun, kLeastTurbidity, kMostTurbidity));
     return;
   }
   scene.sky = sky;
 }
 
-void load(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
+Loaded load(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
+  Loaded loaded;
   std::vector<bool> moved = pose(document, options, scene, notices);
   Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
   applyVariant(document, options.variant);
-  scene.meshesMove = moveMeshes(document, hierarchy, std::move(moved));
+  loaded.movement = movementOf(document, hierarchy, std::move(moved));
+  scene.meshesMove = loaded.movement.meshes;
   unpackMeshes(document, hierarchy);
-  const GeometrySums sums = holdGeometry(document, hierarchy, options.laterTriangleBytes);
+  loaded.sums = holdGeometry(document, hierarchy, options.laterTriangleBytes);
   settlePlace(document, hierarchy, notices);
   scene.origin = hierarchy.origin;
-  std::vector<int> materials = readMaterials(document, usedMaterials(document, hierarchy), scene, notices);
+  loaded.materials = readMaterials(document, usedMaterials(document, hierarchy), scene, notices);
   {
     const LoggedWork work(document.log, "read meshes");
-    MeshLoader(document, hierarchy, sums, std::move(materials), scene, notices).addAll();
+    MeshLoader(document, hierarchy, loaded.sums, loaded.materials, scene, notices).addAll();
   }
   readCameras(document, hierarchy, scene, notices);
   readLights(document, hierarchy, scene, notices);
@@ -207,45 +220,107 @@ void load(Document& document, const LoadOptions& options, Scene& scene, Notices&
     readSky(document, hierarchy.scene, scene, notices);
   else if (!options.sky->isNone)
     scene.sky = options.sky->sky;
+  return loaded;
 }
 
-}  // namespace
+void dropMeshes(Scene& scene) {
+  for (auto* array : {&scene.positions, &scene.normals}) array->clear();
+  for (auto* array : {&scene.tangents, &scene.colors}) array->clear();
+  for (auto* array : {&scene.uv0, &scene.uv1}) array->clear();
+  scene.triangles.clear();
+  scene.droppedTriangles = 0;
+}
 
-}  // namespace gltf
+/// Those of the file, in the places of the ones it had; what others added stays behind them.
+void placeLights(const Document& document, const Hierarchy& hierarchy, Scene& scene, Notices& notices) {
+  const std::vector<Light> before = std::exchange(scene.lights, {});
+  readLights(document, hierarchy, scene, notices);
+  std::copy_if(before.begin(), before.end(), std::back_inserter(scene.lights),
+               [](const Light& light) { return light.node < 0; });
+}
 
-namespace {
+void move(Document& document, const LoadOptions& options, const Loaded& loaded, double seconds,
+          Scene& scene) {
+  Notices heardBefore;
+  document.notices = &heardBefore;
+  MemoryBudget heldBefore({std::numeric_limits<std::uint64_t>::max() / 2, true});
+  document.budget = &heldBefore;
+  poseNodes(document, options.animation, seconds);
+  Hierarchy hierarchy = readHierarchy(document, options.sceneName, heardBefore);
+  settlePlace(document, hierarchy, heardBefore);
+  scene.origin = hierarchy.origin;
+  if (loaded.movement.meshes) {
+    dropMeshes(scene);
+    MeshLoader(document, hierarchy, loaded.sums, loaded.materials, scene, heardBefore).addAll();
+  }
+  std::vector<Camera> cameras = std::exchange(scene.cameras, {});
+  if (!scene.hasOurCamera) readCameras(document, hierarchy, scene, heardBefore);
+  if (scene.cameras.empty()) scene.cameras = std::move(cameras);
+  placeLights(document, hierarchy, scene, heardBefore);
+}
 
-Scene loadFile(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
-  Scene scene;
-  scene.file = path.string();
-  gltf::Document document;
-  document.confined = options.confined;
-  document.isPosed = options.time || options.animation;
-  MemoryBudget own(options.memory ? MemoryLimit{} : memoryLimitOfMachine());
-  document.budget = options.memory ? options.memory : &own;
-  document.textureLevels = options.laterTextureLevels;
-  document.log = options.log;
+/// `work` with the document's errors as one line.
+template <typename Work>
+void inOneLine(const Document& document, const Work& work) {
   try {
-    gltf::openDocument(document, path, notices);
-    gltf::load(document, options, scene, notices);
-    gltf::settleOutside(document);
-  } catch (const gltf::Json::exception& e) {
+    work();
+  } catch (const Json::exception& e) {
     document.fail(e.what());  // a hole in the checks, but still one line instead of a crash
   } catch (const std::bad_alloc&) {
     document.fail("needs more memory than there is");
   } catch (const std::length_error&) {
     document.fail("needs more memory than there is");
   }
-  return scene;
 }
 
 }  // namespace
 
-Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
-  Scene scene = loadFile(path, options, notices);
+}  // namespace gltf
+
+struct OpenFile::State {
+  gltf::Document document;
+  LoadOptions options;
+  gltf::Loaded loaded;
+};
+
+OpenFile::OpenFile() = default;
+OpenFile::~OpenFile() = default;
+
+Scene OpenFile::load(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
+  state_ = std::make_unique<State>();
+  state_->options = options;
+  Scene scene;
+  scene.file = path.string();
+  gltf::Document& document = state_->document;
+  document.confined = options.confined;
+  document.isPosed = options.time || options.animation;
+  MemoryBudget own(options.memory ? MemoryLimit{} : memoryLimitOfMachine());
+  document.budget = options.memory ? options.memory : &own;
+  document.textureLevels = options.laterTextureLevels;
+  document.log = options.log;
+  gltf::inOneLine(document, [&] {
+    gltf::openDocument(document, path, notices);
+    state_->loaded = gltf::load(document, options, scene, notices);
+    gltf::settleOutside(document);
+  });
   const LoggedWork work(options.log, "set up what is missing");
-  returnFreedMemory();  // of the document
   addDefaults(scene, notices, options);
+  return scene;
+}
+
+void OpenFile::moveTo(double seconds, Scene& scene) {
+  State& s = *state_;
+  gltf::inOneLine(s.document, [&] { gltf::move(s.document, s.options, s.loaded, seconds, scene); });
+}
+
+bool OpenFile::moves() const { return state_->loaded.movement.meshes || state_->loaded.movement.eyesOrLamps; }
+
+Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
+  std::optional<OpenFile> file(std::in_place);
+  Scene scene = file->load(path, options, notices);
+  const LoggedWork work(options.log, "free the document");
+  file.reset();
+  returnFreedMemory();
   return scene;
 }
 

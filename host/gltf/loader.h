@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -39,6 +40,29 @@ struct LoadOptions {
 /// Reads `path`. Throws InputError with one line if it cannot be used; says in `notices` what was ignored or
 /// chosen. Adds a camera, lights and a background where the file has none (see addDefaults).
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices);
+
+/// A file that stays open, for pictures of one scene at several times: it is read and its images are decoded
+/// once.
+class OpenFile {
+ public:
+  OpenFile();
+  ~OpenFile();
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  /// As loadGltf, once.
+  Scene load(const std::filesystem::path& path, const LoadOptions& options, Notices& notices);
+  /// Puts cameras, lights and meshes of that scene where the animation has them at `seconds`, as `load` would
+  /// with this time; all else of it stays as it is, what was added among it. Its arrays are whole, but where
+  /// no mesh moves.
+  void moveTo(double seconds, Scene& scene);
+  /// Whether a mesh, a camera or a light that is shown moves, for options with a time.
+  bool moves() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 /// A camera that frames the scene where it has none; the sky, where it has one, else a studio (studio.h)
 /// around the camera that is chosen, where it has neither lights nor a background and something would be

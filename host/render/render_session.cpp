@@ -121,6 +121,7 @@ struct RenderSession::State {
   Kept<DeviceScene, SceneKey> scene;
   Kept<RayQueues, QueueKey> queues;
   TexelFacts texels;  ///< of the scene's images
+  bool haveMeshesMoved = false;
   RenderWork work;
 
   /// What lives on the device.
@@ -165,6 +166,8 @@ void RenderSession::sceneChanged() {
   state_->scene.value.reset();
   state_->texels = {};
 }
+
+void RenderSession::meshesMoved() { state_->haveMeshesMoved = true; }
 
 void RenderSession::close() {
   state_->dropBuffers();
@@ -212,21 +215,22 @@ void RenderSession::State::provideScene(Compute& compute, const Scene& from, con
   const SceneKey wanted{decisions.features.bits() & kSceneBufferFeatures, settings.keepAllFeatures,
                         settings.mirrorRoughness};
   DeviceTables tables = tablesOf(from, decisions.pruned);
-  // An edit may ask for texels that were not read before.
-  work.scene = !scene.serves(wanted) || scene.value->tables.texels != tables.texels ||
-               scene.value->tables.emitters != tables.emitters;
+  const bool hasTexels = scene.serves(wanted) && scene.value->tables.texels == tables.texels;
+  work.scene = !hasTexels || haveMeshesMoved || scene.value->tables.emitters != tables.emitters;
   if (!work.scene) {
     work.tables =
         log.time("upload", [&] { return takeOver(compute, from, std::move(tables), *scene.value); });
     return;
   }
+  DeviceScene stays = hasTexels ? imagesOf(std::move(*scene.value)) : DeviceScene();
   scene.remake(wanted, [&] {
     TriTree tree = log.time("build tree", [&] { return buildTree(from, decisions); });
     return log.time("upload", [&] {
-      return uploadScene(compute, from, decisions.pruned, std::move(tree), decisions.features,
-                         hooks.consumed);
+      return uploadScene(compute, from, decisions.pruned, std::move(tree), decisions.features, hooks.consumed,
+                         std::move(stays));
     });
   });
+  haveMeshesMoved = false;
 }
 
 void RenderSession::State::provideQueues(Compute& compute, const Settings& settings,

@@ -47,6 +47,8 @@ class RenderSession {
   void open(const Settings& settings, const RenderHooks& hooks = {});
   /// The next scene differs from the last in more than that.
   void sceneChanged();
+  /// The next scene has the same images and surroundings as the last, but other meshes.
+  void meshesMoved();
   /// Everything on the device is let go and the device closed, as after it was lost.
   void close();
 

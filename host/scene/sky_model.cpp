@@ -46,13 +46,15 @@ double SkyModel::Perez::at(double cosZenith, double toSun) const {
   return scale * (1.0 + a * std::exp(b / cosZenith)) * (1.0 + c * std::exp(d * toSun) + e * cosine * cosine);
 }
 
-SkyModel::SkyModel(const Sky& sky) : toSun_(directionToSun(sky)) {
+SkyModel::SkyModel(const Sky& sky) : sky_(sky), toSun_(directionToSun(sky)) {
   const double t = std::max(sky.turbidity, kLeastFitted);
   const double theta = (90.0 - sky.elevation) * std::numbers::pi / 180.0;
+  // The paper ends at the horizon: below it the zenith keeps the colour that it has then.
+  const double fitted = std::min(theta, 0.5 * std::numbers::pi);
   perez_ = {{{-0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125, -0.0641 * t - 0.8989,
-              -0.0033 * t + 0.0452, zenithChromaticity(kZenithX, t, theta)},
+              -0.0033 * t + 0.0452, zenithChromaticity(kZenithX, t, fitted)},
              {-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
-              -0.0109 * t + 0.0529, zenithChromaticity(kZenithY, t, theta)},
+              -0.0109 * t + 0.0529, zenithChromaticity(kZenithY, t, fitted)},
              {0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
               -0.0670 * t + 0.3703, 1.0}}};
   for (Perez& p : perez_) p.scale = p.atZenith / p.at(1.0, theta);
@@ -72,7 +74,7 @@ SkyModel::SkyModel(const Sky& sky) : toSun_(directionToSun(sky)) {
   const double brightness = light.sky / lux;
   perez_[2].scale *= brightness;
   skyIrradiance_ *= brightness;
-  ground_ = kGroundAlbedo / std::numbers::pi * (skyIrradiance_ + sunIrradiance_ * toSun_.y);
+  ground_ = kGroundAlbedo / std::numbers::pi * (skyIrradiance_ + sunIrradiance_ * std::max(toSun_.y, 0.0));
 }
 
 /// The luminance, and the colour that its chromaticities say; what sRGB has no place for is cut.
@@ -85,18 +87,26 @@ glm::dvec3 SkyModel::aboveHorizon(const glm::dvec3& d) const {
   return glm::max(linearFromXyz(xyz), glm::dvec3(0.0)) / kLumensPerWatt;
 }
 
-glm::dvec3 SkyModel::radiance(const glm::dvec3& d) const { return d.y > 0.0 ? aboveHorizon(d) : ground_; }
+glm::dvec3 SkyModel::radiance(const glm::dvec3& d) const {
+  if (d.y > 0.0) return aboveHorizon(d);
+  const double haze = d.y < 0.0 ? hazeBefore(sky_, kEyeHeight, std::min(-d.y, 1.0)) : 1.0;
+  if (haze == 0.0) return ground_;  // right below, where no horizon is nearest
+  return glm::mix(ground_, aboveHorizon(glm::normalize(glm::dvec3(d.x, 0.0, d.z))), haze);
+}
 
 void addSky(Scene& scene, const Sky& sky) {
   const SkyModel model(sky);
   scene.sky = sky;
   scene.background = mapOf(kSkyWidth, kSkyHeight, [&](const glm::dvec3& d) { return model.radiance(d); });
   scene.background.hasSun = true;
+  if (model.sunIrradiance() == glm::dvec3(0.0)) return;
   Light sun;
   sun.name = "sun";
   sun.kind = LightKind::Directional;
   sun.intensity = glm::vec3(model.sunIrradiance());
-  sun.direction = glm::vec3(-directionToSun(sky));
+  Sky seen = sky;
+  seen.elevation = std::max(sky.elevation, 0.0);  // the air lifts a disk that has not set yet
+  sun.direction = glm::vec3(-directionToSun(seen));
   scene.lights.push_back(sun);
 }
 

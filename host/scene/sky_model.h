@@ -13,11 +13,13 @@ namespace whittle {
 
 /// Of the ground below the horizon: what it sends back of the light of sun and sky.
 inline constexpr double kGroundAlbedo = 0.2;
+/// Where the horizon is seen from, metres above that ground: the farther the ground, the more haze before it.
+inline constexpr double kEyeHeight = 100.0;
 
 /// Sides of the map that addSky makes.
 inline constexpr int kSkyWidth = 1024, kSkyHeight = 512;
 
-/// Unit, world.
+/// Unit, world. Points down where the sun is below the horizon.
 glm::dvec3 directionToSun(const Sky& sky);
 
 class SkyModel {
@@ -26,7 +28,7 @@ class SkyModel {
   explicit SkyModel(const Sky& sky);
 
   /// Radiance seen along `d` (unit, world), without the sun's disk: linear sRGB, W/(m² sr), never negative.
-  /// Below the horizon: the ground's.
+  /// Below the horizon: the ground's, and the horizon's where haze lies before it.
   glm::dvec3 radiance(const glm::dvec3& d) const;
   /// From the sun on a surface that faces it: linear sRGB, W/m².
   const glm::dvec3& sunIrradiance() const { return sunIrradiance_; }
@@ -44,13 +46,14 @@ class SkyModel {
 
   glm::dvec3 aboveHorizon(const glm::dvec3& d) const;
 
+  Sky sky_;
   glm::dvec3 toSun_;
   std::array<Perez, 3> perez_;  ///< chromaticities x and y, luminance in cd/m²
   glm::dvec3 sunIrradiance_, skyIrradiance_{0.0}, ground_{0.0};
 };
 
 /// Surrounds the scene with the sky, as a map, in the place of its background, and adds the sun, a
-/// directional light called "sun", behind its lights.
+/// directional light called "sun", behind its lights. A sun that has set sends no light.
 void addSky(Scene& scene, const Sky& sky);
 
 }  // namespace whittle

@@ -21,6 +21,10 @@ struct Daylight {
 /// `sky` within its limits.
 Daylight daylightOf(const Sky& sky);
 
+/// Of what lies deeper than the horizon, seen from `height` metres: what the air on the way there keeps of
+/// its light, and gives its own instead of. `down`: sine of the angle below the horizon, above 0.
+double hazeBefore(const Sky& sky, double height, double down);
+
 /// CIE XYZ to linear sRGB, Y to luminance; channels may be negative (IEC 61966-2-1).
 glm::dvec3 linearFromXyz(const glm::dvec3& xyz);
 

@@ -181,7 +181,7 @@ void DeviceScene::report(std::vector<BufferStats>& out) const {
 }
 
 DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, TriTree tree,
-                        const SceneFeatures& sceneFeatures, Scene* consumed) {
+                        const SceneFeatures& sceneFeatures, Scene* consumed, DeviceScene stays) {
   const auto features = SceneFeatures::ofBits(sceneFeatures.bits() & kSceneBufferFeatures);
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
@@ -227,7 +227,8 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   d.materials = compute.upload("materials", d.tables.materials);
   if (features.has(Feature::TEXTURES)) {
     d.textures = compute.upload("textures", d.tables.textures);
-    d.texels = uploadTexels(compute, scene, d.tables.texels, consumed);
+    d.texels =
+        stays.texels ? std::move(stays.texels) : uploadTexels(compute, scene, d.tables.texels, consumed);
     d.linearFromSrgb = compute.upload("linearFromSrgb", srgbTable());
   }
   if (!d.tables.emitters.empty())
@@ -235,10 +236,19 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   d.lightCount = static_cast<std::uint32_t>(d.tables.lights.size());
   d.lights = compute.upload("lights", d.tables.lights);
   if (features.has(Feature::BACKGROUND_MAP))
-    d.backgroundMap = compute.upload("background", scene.background.map);
+    d.backgroundMap = stays.backgroundMap ? std::move(stays.backgroundMap)
+                                          : compute.upload("background", scene.background.map);
   if (features.has(Feature::BACKGROUND_MAP) && features.has(Feature::SKY_LIGHTS))
-    d.sky = compute.upload("sky", skyTableOf(scene.background).until);
+    d.sky = stays.sky ? std::move(stays.sky) : compute.upload("sky", skyTableOf(scene.background).until);
   return d;
+}
+
+DeviceScene imagesOf(DeviceScene&& scene) {
+  DeviceScene images;
+  images.texels = std::move(scene.texels);
+  images.backgroundMap = std::move(scene.backgroundMap);
+  images.sky = std::move(scene.sky);
+  return images;
 }
 
 TableChanges takeOver(Compute& compute, const Scene& scene, DeviceTables tables, DeviceScene& d) {

@@ -41,9 +41,13 @@ inline constexpr std::uint64_t kSceneBufferFeatures =
 /// Uploads of `pruned` what `features` needs. Throws ClError naming the buffer that does not fit. The
 /// tree's nodes are let go where a wider tree takes their place.
 /// `consumed`: null, or the scene itself, whose owner reads no more of its normals, tangents, texture
-/// coordinates and texels: they are let go as soon as the device has them.
+/// coordinates and texels: they are let go as soon as the device has them. `stays`: what it has already of
+/// texels, background and the sky's table; an empty buffer is uploaded.
 DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene& pruned, TriTree tree,
-                        const SceneFeatures& features, Scene* consumed = nullptr);
+                        const SceneFeatures& features, Scene* consumed = nullptr, DeviceScene stays = {});
+
+/// Of a scene that goes: the buffers of its images.
+DeviceScene imagesOf(DeviceScene&& scene);
 
 /// Which buffers an edit reached.
 struct TableChanges {

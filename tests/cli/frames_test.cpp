@@ -70,6 +70,47 @@ TEST(Frames, EachIsThePictureOfItsTime) {
   }
 }
 
+TEST(Frames, WhatDoesNotMoveIsSaid) {
+  const Folder folder;
+  write(folder / "moving.glb", movingScene(false));
+  GltfBuilder still;
+  still.node({{"mesh", still.triangleMesh()}});
+  write(folder / "still.glb", still.glb());
+  const auto warned = [&](const char* file, const char* frames) {
+    return runWhittle({"render", file, "--width", "8", "--height", "8", "--quiet", "--frames", frames, "-o",
+                       "f.exr"},
+                      {folder.path(), {}})
+        .err;
+  };
+  EXPECT_NE(warned("still.glb", "0:1").find("the 2 pictures are alike"), std::string::npos);
+  EXPECT_EQ(warned("still.glb", "0:0").find("alike"), std::string::npos) << "one picture";
+  EXPECT_EQ(warned("moving.glb", "0:1").find("alike"), std::string::npos);
+}
+
+/// Texels stay on the device while meshes move below a sky that stays.
+TEST(Frames, TexturedOnesAreThePicturesOfTheirTimes) {
+  const std::filesystem::path cube =
+      std::filesystem::path(WHITTLE_SHARED) / "gltf/AnimatedCube/glTF/AnimatedCube.gltf";
+  if (!std::filesystem::exists(cube)) GTEST_SKIP() << "needs " << cube;
+  const Folder folder;
+  const Names options{"--width", "32",    "--height", "24",        "--sky", "30,20",  "--ambient",
+                      "1",       "--eye", "3,3,4",    "--look-at", "0,0,0", "--quiet"};
+  const auto draw = [&](const Names& more) {
+    Names args{"render", cube.string()};
+    args.insert(args.end(), options.begin(), options.end());
+    args.insert(args.end(), more.begin(), more.end());
+    const Outcome run = runWhittle(args, {folder.path(), {}});
+    EXPECT_EQ(run.status, 0) << run.err;
+  };
+  draw({"--frames", "0:2", "--fps", "2", "-o", "f_#.exr"});
+  for (const char* k : {"0", "1", "2"}) {
+    draw({"--time", std::to_string(std::stoi(k) / 2.0), "-o", "one.exr"});
+    EXPECT_EQ(readFloatImage(folder / (std::string("f_") + k + ".exr")).pixels,
+              readFloatImage(folder / "one.exr").pixels)
+        << k;
+  }
+}
+
 /// Of a camera that moves nothing but the camera is sent: no second tree.
 TEST(Frames, WhatDoesNotMoveIsKept) {
   for (const bool camera : {true, false}) {

@@ -57,9 +57,10 @@ TEST(SkyOption, SunAndSkyStandInTheReports) {
   EXPECT_NEAR(sun["direction"][1].get<double>(), -std::sin(40 * std::acos(-1) / 180), 1e-6);
   EXPECT_GT(sunny["background"]["mapWidth"], 0);
   const Folder folder;
-  const Outcome run = runWhittle(smallRender({"--sky", "40,10", "--bloom", "0.1", "--dither", "--stats",
-                                              "s.json", "-o", "a.png", "--quiet"}),
-                                 {folder.path(), {}});
+  const Outcome run =
+      runWhittle({"render", scene("height_field.glb"), "--width", "32", "--height", "24", "--sky", "40,10",
+                  "--bloom", "0.1", "--dither", "--stats", "s.json", "-o", "a.png", "--quiet"},
+                 {folder.path(), {}});
   ASSERT_EQ(run.status, 0) << run.err;
   const Json settings = readJson(folder / "s.json")["settings"];
   EXPECT_EQ(settings["sky"], "40,10,3");
@@ -67,6 +68,17 @@ TEST(SkyOption, SunAndSkyStandInTheReports) {
   EXPECT_EQ(settings["dither"], true);
   EXPECT_GT(settings["ambient"], 0) << "what lies in the shade is not black";
   EXPECT_LT(settings["exposure"], -4) << "noon is bright";
+}
+
+/// In a closed room what lies in the shade is as dark as without a sky.
+TEST(SkyOption, RoomsAreNotGreyed) {
+  const Folder folder;
+  const Outcome run = runWhittle({"render", scene("cornell_box.glb"), "--width", "32", "--height", "24",
+                                  "--sky", "40,10", "--stats", "s.json", "-o", "a.png"},
+                                 {folder.path(), {}});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(readJson(folder / "s.json")["settings"]["ambient"], 0);
+  EXPECT_NE(run.err.find("--ambient auto, with the sky, 0 % of it"), std::string::npos) << run.err;
 }
 
 TEST(SkyOption, WhatItLeavesOutIsSaid) {

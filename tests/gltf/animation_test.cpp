@@ -122,6 +122,47 @@ TEST(GltfAnimation, NodesMoveTurnAndGrow) {
   expectNear(corner(half, 0, 0), {0, 5 + 2 * 1, 0}, 1e-6F);
 }
 
+/// An open file is where one is that was loaded at that time: meshes (turned, skinned, blended), cameras,
+/// lights. What others added stays.
+TEST(GltfAnimation, AnOpenFileMovesAsOneThatIsLoadedAnew) {
+  GltfBuilder b;
+  b.push("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
+  b.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  b.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({{{"type", "point"}}});
+  Json morphed{{"targets", {{{"POSITION", b.vec3({0, 0, 1, 0, 0, 2, 0, 0, 3})}}}}};
+  const int blended = b.node({{"mesh", b.triangleMesh(morphed)}});
+  const int eye = b.node({{"camera", 0}, {"translation", {0, 0, 3}}});
+  const int turned = b.node({{"mesh", b.triangleMesh()}, {"translation", {5, 0, 0}}});
+  const int lamp = b.node(Json::parse(R"({"extensions": {"KHR_lights_punctual": {"light": 0}}})"));
+  std::vector<float> turns = aboutZ(0);
+  append(turns, aboutZ(2));
+  animate(b, blended, "weights", "SCALAR", 1, {0, 4});
+  animate(b, turned, "rotation", "VEC4", 4, turns);
+  animate(b, eye, "translation", "VEC3", 3, {0, 0, 3, 1, 2, 3});
+  animate(b, lamp, "translation", "VEC3", 3, {0, 1, 0, 0, 9, 0});
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scene.glb", b.glb());
+  Notices notices;
+  OpenFile open;
+  Scene scene = open.load(file, at(0), notices);
+  EXPECT_TRUE(open.moves());
+  Light added;
+  added.name = "added";
+  scene.lights.push_back(added);
+  for (const double seconds : {0.25, 1.0, 0.5}) {
+    open.moveTo(seconds, scene);
+    const Scene anew = b.load(at(seconds));
+    EXPECT_EQ(scene.positions, anew.positions) << seconds;
+    EXPECT_EQ(scene.triangles.size(), anew.triangles.size());
+    EXPECT_EQ(scene.origin, anew.origin);
+    ASSERT_EQ(scene.cameras.size(), 1U);
+    EXPECT_EQ(scene.cameras[0].position, anew.cameras[0].position);
+    ASSERT_EQ(scene.lights.size(), 2U);
+    EXPECT_EQ(scene.lights[0].position, anew.lights[0].position);
+    EXPECT_EQ(scene.lights[1].name, "added");
+  }
+}
+
 TEST(GltfAnimation, QuantisedTurnsAreRead) {
   GltfBuilder b;
   const int node = b.node({{"mesh", b.triangleMesh()}});

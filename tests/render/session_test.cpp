@@ -50,6 +50,22 @@ TEST(RenderSession, GivesTheBitsOfSingleRenders) {
   EXPECT_TRUE(session.work().scene);
 }
 
+/// Texels and background stay on the device; the tree is that of the new places.
+TEST(RenderSession, MovedMeshesHaveTheBitsOfASingleRender) {
+  RenderSession session;
+  Scene scene = ownScene("textured");
+  const Settings settings = sessionSettings();
+  const RenderResult before = session.render(scene, settings, testHooks());
+  for (glm::vec3& p : scene.positions) p += glm::vec3(0.05F, 0.02F * p.x, 0);
+  session.meshesMoved();
+  const RenderResult moved = session.render(scene, settings, testHooks());
+  EXPECT_TRUE(session.work().scene);
+  EXPECT_EQ(session.work().texelReads, 0U);
+  EXPECT_EQ(differingPixels(moved.radiance, render(scene, settings, testHooks()).radiance), 0U);
+  EXPECT_GT(differingPixels(moved.radiance, before.radiance), 0U) << "or the test shows nothing";
+  EXPECT_FALSE((session.render(scene, settings, testHooks()), session.work().scene)) << "once";
+}
+
 /// Of a device that can be divided, which PoCL's can: the platform itself reads its number of threads once.
 TEST(RenderSession, AnotherNumberOfThreadsHoldsAtOnceAndChangesNoBit) {
   RenderSession session;

@@ -219,6 +219,64 @@ TEST(Sky, SunsAreRedInTheEveningAndTheZenithIsBlueAtNoon) {
   }
 }
 
+TEST(Sky, DuskIsAsBrightAsItIsMeasured) {
+  // Clear evenings after the Glossary of Meteorology of the American Meteorological Society: 585 to 410 lx
+  // when the sun's upper limb sets, 3.5 to 2 lx at the end of civil twilight. The fit's own error is 0.02 in
+  // the logarithm, 5 %.
+  const auto lux = [](double elevation) { return daylightOf({elevation, 0, 3}).sky; };
+  EXPECT_GT(lux(-50.0 / 60), 410);
+  EXPECT_LT(lux(-50.0 / 60), 585);
+  EXPECT_GT(lux(-6), 2);
+  EXPECT_LT(lux(-6), 3.5 * 1.05);
+  for (double elevation = 0; elevation > kLowestSun; elevation -= 0.05) {
+    EXPECT_LT(lux(elevation - 0.05), lux(elevation)) << elevation;
+    EXPECT_GT(lux(elevation - 0.05), 0.9 * lux(elevation))
+        << elevation << ": no step; a degree halves it or more";
+  }
+}
+
+TEST(Sky, TheSunSetsWhenTheAirNoLongerLiftsIt) {
+  const auto sun = [](double elevation) { return daylightOf({elevation, 0, 3}).sun.y; };
+  // 34' of refraction, 16' of radius: whole at -18', half at -34', gone at -50'.
+  EXPECT_DOUBLE_EQ(sun(-18.0 / 60), sun(0));
+  EXPECT_NEAR(sun(-34.0 / 60) / sun(0), 0.5, 1e-9);
+  EXPECT_GT(sun(-49.0 / 60), 0);
+  EXPECT_EQ(sun(-51.0 / 60), 0);
+  for (const double elevation : {-0.5, -3.0}) {
+    Scene scene;
+    addSky(scene, {elevation, 200, 3});
+    ASSERT_EQ(scene.lights.size(), elevation > -0.84 ? 1U : 0U);
+    for (const Light& light : scene.lights) EXPECT_EQ(light.direction.y, 0.0F) << "none from below";
+    for (const float v : scene.background.map) ASSERT_TRUE(std::isfinite(v) && v >= 0.0F);
+    EXPECT_NEAR(
+        luminanceOf(irradianceOf(scene.background)) * kLumensPerWatt / daylightOf({elevation, 0, 3}).sky, 1,
+        5e-3);
+    // The evening side is the brighter one.
+    const SkyModel dusk({elevation, 200, 3});
+    EXPECT_GT(luminanceOf(dusk.radiance(along(85 * kDegree, 200 * kDegree))),
+              3 * luminanceOf(dusk.radiance(along(85 * kDegree, 20 * kDegree))));
+  }
+}
+
+/// What is left of a contrast at the distance of the meteorological range: 2 % (Koschmieder).
+TEST(Sky, HazeTakesTheGroundAway) {
+  for (const double turbidity : {2.0, 3.0, 10.0}) {
+    const Sky sky{30, 120, turbidity};
+    const SkyModel model(sky);
+    const glm::dvec3 ground = model.radiance({0, -1, 0});
+    // Vertical optical depths at 550 nm, and the heights that they stand for.
+    const double each = (0.04608 * turbidity - 0.04586) * std::pow(0.55, -1.3) / 1200 +
+                        0.008735 * std::pow(0.55, -4.08) / 7994;
+    const double range = std::log(50) / each, down = kEyeHeight / (range + kEyeHeight);
+    const auto below = [&](double sine) { return along(kPi / 2 + std::asin(sine), 77 * kDegree); };
+    const glm::dvec3 horizon = model.radiance(along(kPi / 2 - 1e-9, 77 * kDegree));
+    EXPECT_NEAR(glm::distance(model.radiance(below(1e-9)), horizon) / glm::length(horizon), 0, 1e-5)
+        << "no edge at the horizon";
+    const glm::dvec3 left = (model.radiance(below(down)) - horizon) / (ground - horizon);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(left[c], 0.02, 1e-6) << turbidity;
+  }
+}
+
 TEST(Sky, AzimuthTurnsAboutTheVertical) {
   // 90° beside the sun at azimuth 0 is what lies 90° beside one at 135.
   const glm::dvec3 a = SkyModel({20, 0, 4}).radiance(along(70 * kDegree, 90 * kDegree));
@@ -227,9 +285,9 @@ TEST(Sky, AzimuthTurnsAboutTheVertical) {
 }
 
 TEST(Sky, LimitsHold) {
-  EXPECT_TRUE(isInRange(Sky{0, 0, kLeastTurbidity}));
+  EXPECT_TRUE(isInRange(Sky{-6, 0, kLeastTurbidity}));
   EXPECT_TRUE(isInRange(Sky{90, -1e6, kMostTurbidity}));
-  for (const Sky& out : {Sky{-0.1, 0, 3}, Sky{90.1, 0, 3}, Sky{45, NAN, 3}, Sky{NAN, 0, 3}, Sky{45, 0, 1.69},
+  for (const Sky& out : {Sky{-6.1, 0, 3}, Sky{90.1, 0, 3}, Sky{45, NAN, 3}, Sky{NAN, 0, 3}, Sky{45, 0, 1.69},
                          Sky{45, 0, 10.1}, Sky{45, INFINITY, 3}})
     EXPECT_FALSE(isInRange(out));
 }

@@ -52,6 +52,7 @@ class SamplingLoop {
   bool looks() const;
   std::vector<SamplePass> nextPasses() const;
   double growth(double most) const;
+  double shownGrowth() const;
   std::uint32_t nextSamples() const;
   bool tracePass(const SamplePass& pass);
   bool traceWith(const SamplePass& pass, const TracePass& launches);

@@ -137,7 +137,7 @@ Look lookOf(const FloatImage& radiance, const Scene& scene, const Settings& sett
   if (settings.exposure) {
     look.stops = *settings.exposure;
   } else if (isShown && !isUnlit) {
-    look.stops = fittingExposure(radiance);
+    look.stops = fittingExposure(radiance, settings.skyLight ? kNoisyBlock : 1);
     if (look.stops != 0.0F && !quiet)
       note(fmt::format(
           "exposed by {:+.1f} stops, since the picture would be too {}; --exposure 0 leaves it so",

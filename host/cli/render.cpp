@@ -26,6 +26,7 @@
 #include "cli/progress_bar.h"
 #include "cli/speech.h"
 #include "gltf/loader.h"
+#include "reference/blockers.h"
 #include "reference/reference.h"
 #include "render/explanation.h"
 #include "render/peak_memory.h"
@@ -93,6 +94,8 @@ void tellExplanation(const Scene& scene, const RenderOptions& o) {
   hooks.phase = [&](const std::string& text) { bar.phase(text); };
   Explanation explanation{x, y, {}, {}};
   explainingErrors(o, [&] { explanation.trees = RenderSession().explain(scene, o.settings, x, y, hooks); });
+  for (std::size_t i = 0; i < std::min(explanation.trees.size(), kToldSamples); ++i)
+    findBlockers(scene, explanation.trees[i]);
   if (o.withReference) {
     bar.phase("tracing in double precision");
     explanation.reference = referenceTrees(scene, o.settings, x, y);

@@ -68,6 +68,13 @@ constexpr std::array kRows{
     Row{"threads", "Device", "threads", Kind::Whole, "more than cores: from the next start"},
 };
 
+struct SceneRow {
+  const char *id, *label;
+};
+constexpr std::array kSceneRows{SceneRow{"time", "time, s"}, SceneRow{"animation", "animation"},
+                                SceneRow{"background", "background"}};
+constexpr const char* kNotGiven = "auto";
+
 /// The command line with nothing but these options, bound to settings of its own.
 struct Options {
   Settings settings;
@@ -98,6 +105,12 @@ std::vector<std::string> wordsOf(const std::string& typeName) {
     at = end + 1;
   }
   return words;
+}
+
+/// With a blank before it.
+std::string optionText(const std::string& id, const std::string& value) {
+  const char* const quote = value.find(' ') != std::string::npos ? "'" : "";
+  return fmt::format(" --{} {}{}{}", id, quote, value, quote);
 }
 
 /// By number: names may be alike.
@@ -161,13 +174,70 @@ std::string optionsText(const Settings& settings) {
   for (const Row& row : kRows) {
     const std::string value = settingText(settings, row.id);
     if (value == standardText({}, settings, row.id)) continue;
-    const bool hasBlanks = value.find(' ') != std::string::npos;
-    if (!text.empty()) text += ' ';
     if (row.kind == Kind::Switch)
-      text += fmt::format("--{}{}", value == "on" ? "" : "no-", row.id);
+      text += fmt::format(" --{}{}", value == "on" ? "" : "no-", row.id);
     else
-      text += fmt::format("--{} {}{}{}", row.id, hasBlanks ? "'" : "", value, hasBlanks ? "'" : "");
+      text += optionText(row.id, value);
   }
+  return text.empty() ? text : text.substr(1);
+}
+
+namespace {
+
+/// A command line of options for the scene.
+struct SceneCommand {
+  SceneOptions options;
+  CLI::App app;
+
+  SceneCommand() {
+    addSceneOptions(app, options);
+    app.get_option("SCENE")->required(false);
+  }
+};
+
+}  // namespace
+
+std::vector<view::Control> sceneControls() {
+  const SceneCommand command;
+  std::vector<view::Control> controls;
+  for (const SceneRow& row : kSceneRows) {
+    view::Control c;
+    c.id = row.id;
+    c.group = "Scene";
+    c.label = row.label;
+    c.words = {kNotGiven};
+    c.standard = kNotGiven;
+    const CLI::Option* const option = command.app.get_option(fmt::format("--{}", row.id));
+    c.tip = fmt::format("--{} {}: {}", row.id, option->get_type_name(), option->get_description());
+    controls.push_back(std::move(c));
+  }
+  return controls;
+}
+
+bool isSceneControl(const std::string& id) {
+  return std::any_of(kSceneRows.begin(), kSceneRows.end(), [&](const SceneRow& r) { return r.id == id; });
+}
+
+std::string sceneText(const SceneOptions& options, const std::string& id) {
+  if (id == "time") return options.time ? fmt::format("{:.7g}", *options.time) : kNotGiven;
+  const std::string& text = id == "animation" ? options.animation : options.background;
+  return text.empty() ? kNotGiven : text;
+}
+
+void setSceneOption(SceneOptions& options, const std::string& id, const std::string& text) {
+  SceneCommand command;
+  if (text != kNotGiven && !text.empty())
+    command.app.parse(std::vector<std::string>{fmt::format("--{}={}", id, text)});
+  if (id == "time") options.time = command.options.time;
+  if (id == "animation") options.animation = command.options.animation;
+  if (id == "background") options.background = command.options.background;
+}
+
+std::string sceneOptionsText(const SceneOptions& options) {
+  std::string text;
+  for (const SceneRow& row : kSceneRows)
+    if (const std::string value = sceneText(options, row.id); value != kNotGiven)
+      text += optionText(row.id, value);
   return text;
 }
 

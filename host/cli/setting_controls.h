@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cl/device.h"
+#include "cli/options.h"
 #include "scene/settings.h"
 #include "view/view_model.h"
 
@@ -28,5 +29,14 @@ void setSetting(Settings& settings, const std::string& id, const std::string& te
 
 /// Those controls that are not the defaults of `whittle render`, as its options.
 std::string optionsText(const Settings& settings);
+
+/// Options that say how the scene's file is read: --time, --animation, --background; "auto" where none is
+/// given.
+std::vector<view::Control> sceneControls();
+bool isSceneControl(const std::string& id);
+std::string sceneText(const SceneOptions& options, const std::string& id);
+/// Throws InputError, with the options as they were.
+void setSceneOption(SceneOptions& options, const std::string& id, const std::string& text);
+std::string sceneOptionsText(const SceneOptions& options);
 
 }  // namespace whittle::cli

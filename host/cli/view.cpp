@@ -7,6 +7,7 @@
 #include <mutex>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "cl/device.h"
 #include "cl/kernel_cache.h"
@@ -65,7 +66,7 @@ class Sources {
 
   /// `file`: a scene, an environment, or empty: all as before.
   Scene load(const fs::path& file, Settings& settings, std::vector<std::string>& notes) {
-    SceneOptions options = currentOptions();  // the window asks about pictures while a scene is read
+    SceneOptions options = wantedOptions();  // the window asks about pictures while a scene is read
     if (isEnvironment(file))
       options.background = file.string();
     else if (!file.empty())
@@ -84,6 +85,22 @@ class Sources {
     return scene;
   }
 
+  /// Of sceneControls, for the next time that a scene is read. Throws InputError.
+  void set(const std::string& id, const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    SceneOptions wanted = wanted_.value_or(options_);
+    setSceneOption(wanted, id, text);
+    wanted_ = wanted;
+  }
+  std::string value(const std::string& id) const {
+    const std::lock_guard lock(mutex_);
+    return sceneText(wanted_.value_or(options_), id);
+  }
+  std::string optionsText() const {
+    const std::lock_guard lock(mutex_);
+    return sceneOptionsText(options_);
+  }
+
   /// Throws InputError, as loading does, where a picture larger than those so far is more than memory allows.
   void checkPicture(const Settings& settings) {
     const std::lock_guard lock(mutex_);
@@ -96,13 +113,15 @@ class Sources {
 
   /// Says what was written.
   std::string save(const fs::path& copy, const Scene& scene, const Appearance& before, Appearance after) {
-    const std::lock_guard lock(mutex_);
     bool ofSky = false;  // its sun comes with it whenever the copy is read
     for (std::size_t i = 0; scene.sky && i < before.lights.size(); ++i)
       if (before.lights[i].node < 0 && differs(before.lights[i], after.lights[i]))
         ofSky = true, after.lights[i] = before.lights[i];
     EditedScene edited{scene.file, {}, scene.origin, before, after};
-    if (!options_.scene.empty()) edited.sceneName = options_.scene;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!options_.scene.empty()) edited.sceneName = options_.scene;
+    }
     const fs::path written = writeEditedCopy(edited, copy);
     bool ofStudio = false;  // one of its lights is of the file now
     for (std::size_t i = 0; scene.hasStudioLights && i < before.lights.size(); ++i)
@@ -116,16 +135,17 @@ class Sources {
  private:
   static constexpr CommandCosts kCosts{kTriangleBytes, kRuntimeBytes, pictureBytes};
 
-  SceneOptions currentOptions() {
+  SceneOptions wantedOptions() {
     const std::lock_guard lock(mutex_);
-    return options_;
+    return std::exchange(wanted_, std::nullopt).value_or(options_);
   }
   static bool isEnvironment(const fs::path& file) {
     return file.extension() == ".hdr" || file.extension() == ".exr";
   }
-  std::mutex mutex_;
-  SceneOptions options_;
-  std::uint64_t allowedPicture_ = 0;  ///< bytes
+  mutable std::mutex mutex_;
+  SceneOptions options_;                ///< of the scene that was read last
+  std::optional<SceneOptions> wanted_;  ///< of the next one, where they differ
+  std::uint64_t allowedPicture_ = 0;    ///< bytes
 };
 
 std::vector<std::uint8_t> codesOf(const FloatImage& radiance, const Scene& scene, const Settings& settings) {
@@ -161,6 +181,16 @@ Camera cameraOf(const Scene& scene, double aspect, const std::string& text) {
   return cameraAt(scene, *viewpoint, aspect);
 }
 
+/// Those of the scene before those of the device, which are seldom changed.
+std::vector<view::Control> windowControls(const Settings& standard) {
+  std::vector<view::Control> controls = settingControls(standard, listDevices());
+  const auto device = std::find_if(controls.begin(), controls.end(),
+                                   [](const view::Control& c) { return c.group == "Device"; });
+  const auto ofScene = sceneControls();
+  controls.insert(device, ofScene.begin(), ofScene.end());
+  return controls;
+}
+
 /// Under the first free number.
 std::string savePictures(const fs::path& stem, const RenderResult& result, const Scene& scene,
                          const Settings& settings) {
@@ -191,12 +221,15 @@ int runView(ViewOptions& o) {
   view::Services services;
   Settings standard;
   standard.raysPerPixel = kRaysPerPixel;
-  services.controls = settingControls(standard, listDevices());
+  services.controls = windowControls(standard);
   services.standard = [standard](const Settings& settings, const std::string& id) {
-    return standardText(standard, settings, id);
+    return isSceneControl(id) ? "auto" : standardText(standard, settings, id);
   };
-  services.value = settingText;
-  services.set = [](Settings& settings, const std::string& id, const std::string& text) {
+  services.value = [sources](const Settings& settings, const std::string& id) {
+    return isSceneControl(id) ? sources->value(id) : settingText(settings, id);
+  };
+  services.set = [sources](Settings& settings, const std::string& id, const std::string& text) {
+    if (isSceneControl(id)) return sources->set(id, text);
     setSetting(settings, id, text);
     if (id == "target-error" || id == "time-limit") followTarget(settings, kRaysPerPixel);
   };
@@ -214,7 +247,9 @@ int runView(ViewOptions& o) {
   services.save = savePictures;
   // A script leaves nothing behind but what it is told to write.
   services.recent = view::RecentFiles(script ? fs::path() : view::recentFilesStore());
-  services.optionsText = optionsText;
+  services.optionsText = [sources](const Settings& settings) {
+    return optionsText(settings) + sources->optionsText();
+  };
   services.saveScene = [sources](const fs::path& copy, const Scene& scene, const Appearance& before,
                                  const Appearance& after) {
     return sources->save(copy, scene, before, after);

@@ -98,17 +98,33 @@ double rollOff(double v) {
   return v <= kToneKnee ? v : 1 - kRoom * kRoom / (v - kToneKnee + kRoom);
 }
 
-float fittingExposure(const FloatImage& image) {
-  const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
+namespace {
+
+double luminanceOf(const FloatImage& image, int x, int y) {
   const auto channels = static_cast<std::size_t>(image.channels);
-  std::vector<double> luminance;
-  luminance.reserve(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const float* p = &image.pixels[i * channels];
-    const double v =
-        channels >= 3 ? 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2] : static_cast<double>(p[0]);
-    if (std::isfinite(v) && v > 0) luminance.push_back(v);
-  }
+  const float* p = &image.pixels[(static_cast<std::size_t>(y) * image.width + x) * channels];
+  return channels >= 3 ? 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2] : static_cast<double>(p[0]);
+}
+
+/// Of the pixels; with a block above 1 of the means of what is finite in squares.
+std::vector<double> luminances(const FloatImage& image, int block) {
+  std::vector<double> all;
+  for (int y0 = 0; y0 < image.height; y0 += block)
+    for (int x0 = 0; x0 < image.width; x0 += block) {
+      double sum = 0, count = 0;
+      for (int y = y0; y < std::min(y0 + block, image.height); ++y)
+        for (int x = x0; x < std::min(x0 + block, image.width); ++x)
+          if (const double v = luminanceOf(image, x, y); std::isfinite(v) || block == 1) sum += v, ++count;
+      all.push_back(count > 0 ? sum / count : 0);
+    }
+  return all;
+}
+
+}  // namespace
+
+float fittingExposure(const FloatImage& image, int block) {
+  std::vector<double> luminance = luminances(image, block);
+  std::erase_if(luminance, [](double v) { return !(std::isfinite(v) && v > 0); });
   if (luminance.empty()) return 0;
   constexpr double kDark = 1e-6;
   const double dark = kDark * *std::max_element(luminance.begin(), luminance.end());

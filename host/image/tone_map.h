@@ -20,8 +20,11 @@ double rollOff(double v);
 /// mean luminance) lies between 1/50 and 1, and no more than a quarter of it is brighter than white.
 /// Otherwise that middle becomes 18 %, but the brightest 2 % stay within a stop above white; tenths of a
 /// stop. Pixels that are not finite, or a millionth of the brightest and less, do not count. The same for any
-/// number of threads.
-float fittingExposure(const FloatImage& image);
+/// number of threads. `block`: of so many by so many pixels the mean counts, in the place of each by itself.
+/// Noise lowers the logarithm of a pixel, so that a picture of few rays would seem darker than one of many.
+float fittingExposure(const FloatImage& image, int block = 1);
+/// For light of random directions (--sky-light): as many samples as a good pixel has.
+inline constexpr int kNoisyBlock = 8;
 
 /// Width·height·3 bytes. With `rollsOff` the largest of the three channels goes through rollOff and the other
 /// two are scaled with it, so that hue stays where single channels would clip; what the roll-off takes away

@@ -42,6 +42,8 @@ struct Box {
 class TriangleIndex {
  public:
   explicit TriangleIndex(const Scene& scene);
+  /// Finds nothing and takes no memory: for what asks for corners alone.
+  static TriangleIndex ofCorners(const Scene& scene) { return TriangleIndex(&scene); }
 
   /// Calls visit(hit) for triangles met at 0 < t <= tMax, in no particular order; visit returns the new tMax
   /// (negative: enough). Triangles that a shrunken tMax excludes may be visited or not.
@@ -63,6 +65,8 @@ class TriangleIndex {
   std::array<Vec3, 3> corners(std::uint32_t triangle) const;
 
  private:
+  explicit TriangleIndex(const Scene* scene) : scene_(scene) {}
+
   struct Node {
     Box box;
     /// Leaf: first entry of order_; inner: index of the left child, the right one follows.

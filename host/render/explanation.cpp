@@ -13,8 +13,6 @@ namespace {
 
 /// Of a long tree's indentation.
 constexpr int kDeepest = 12;
-/// Samples that are told ray by ray.
-constexpr std::size_t kTold = 4;
 
 const char* wordOf(Passage passage) {
   switch (passage) {
@@ -50,11 +48,19 @@ std::string materialName(const Scene& scene, std::uint32_t material) {
   return nameOf(scene.materials[material].name, "material", material);
 }
 
+std::string blockerText(const ShadowRecord& s, const Scene& scene) {
+  if (!s.blocker) return {};
+  return fmt::format(" by {}, triangle {}, {:.4g} m away",
+                     materialName(scene, scene.triangles[s.blocker->primitive].material),
+                     s.blocker->primitive, s.blocker->distance);
+}
+
 std::string shadowText(const ShadowRecord& s, const Scene& scene) {
   const std::string to = fmt::format("shadow ray to {}{}", lightName(scene, s.light),
                                      std::isfinite(s.length) ? fmt::format(", {:.4g} m", s.length) : "");
-  if (s.arrived == glm::dvec3(0)) return fmt::format("{}: blocked, {} missed", to, numbers(s.contribution));
-  if (glm::all(glm::greaterThan(s.arrived, 0.999 * s.contribution)))
+  if (s.arrived == glm::dvec3(0))
+    return fmt::format("{}: blocked{}, {} missed", to, blockerText(s, scene), numbers(s.contribution));
+  if (glm::all(glm::greaterThanEqual(s.arrived, 0.999 * s.contribution)))
     return fmt::format("{}: {} arrives", to, numbers(s.arrived));
   return fmt::format("{}: {} of {} arrives", to, numbers(s.arrived), numbers(s.contribution));
 }
@@ -196,11 +202,17 @@ nlohmann::ordered_json rayJson(const RayTree& tree, const RayRecord& ray, const 
   json["radiance"] = vectorJson(ray.radiance);
   json["adds"] = vectorJson(shareOf(ray));
   json["shadowRays"] = nlohmann::ordered_json::array();
-  for (const auto& s : ray.shadows)
-    json["shadowRays"].push_back({{"light", s.light},
+  for (const auto& s : ray.shadows) {
+    nlohmann::ordered_json shadow{{"light", s.light},
                                   {"direction", vectorJson(s.direction)},
                                   {"contribution", vectorJson(s.contribution)},
-                                  {"arrived", vectorJson(s.arrived)}});
+                                  {"arrived", vectorJson(s.arrived)}};
+    if (s.blocker)
+      shadow["blocker"] = {{"primitive", s.blocker->primitive},
+                           {"material", scene.triangles[s.blocker->primitive].material},
+                           {"distance", s.blocker->distance}};
+    json["shadowRays"].push_back(std::move(shadow));
+  }
   json["ended"] = nlohmann::ordered_json::array();
   for (const auto& e : ray.ended)
     json["ended"].push_back({{"throughput", e.throughput}, {"by", e.byCutoff ? "cutoff" : "depth"}});
@@ -279,7 +291,7 @@ std::string explanationText(const Explanation& e, const Scene& scene, const Sett
   };
   std::string out = fmt::format("pixel {},{} of {}×{}: radiance {} W/(m² sr)\n", e.x, e.y, settings.width,
                                 settings.height, numbers(mean(e.trees)));
-  for (std::size_t i = 0; i < std::min(e.trees.size(), kTold); ++i) {
+  for (std::size_t i = 0; i < std::min(e.trees.size(), kToldSamples); ++i) {
     const RayTree& tree = e.trees[i];
     if (e.trees.size() > 1)
       out += fmt::format("\nsample {} of {}: {}\n", i + 1, e.trees.size(), numbers(tree.radiance));
@@ -294,9 +306,10 @@ std::string explanationText(const Explanation& e, const Scene& scene, const Sett
     tell(tree, 0, 0, scene, &beside, out);
     out += sum + verdict(tree, beside, scene) + "\n";
   }
-  if (e.trees.size() > kTold)
-    out += fmt::format("\n{} further samples{}: --json has them\n", e.trees.size() - kTold,
-                       e.reference.empty() ? "" : fmt::format(", of which {} part", partedBeyond(kTold, e)));
+  if (e.trees.size() > kToldSamples)
+    out += fmt::format(
+        "\n{} further samples{}: --json has them\n", e.trees.size() - kToldSamples,
+        e.reference.empty() ? "" : fmt::format(", of which {} part", partedBeyond(kToldSamples, e)));
   return out;
 }
 

@@ -12,6 +12,9 @@
 
 namespace whittle {
 
+/// Samples that a text tells ray by ray.
+inline constexpr std::size_t kToldSamples = 4;
+
 struct Explanation {
   int x = 0, y = 0;                ///< the pixel, from the top left
   std::vector<RayTree> trees;      ///< of its samples, the kernels'

@@ -117,7 +117,7 @@ struct RenderSession::State {
   };
 
   Kept<OpenDevice, DeviceKey> device;
-  Kept<PictureBuffers, PictureKey> picture;
+  Kept<PictureBuffers, PictureKey> pictures[2];  ///< [RenderHooks::isPreview]
   Kept<DeviceScene, SceneKey> scene;
   Kept<RayQueues, QueueKey> queues;
   TexelFacts texels;  ///< of the scene's images
@@ -126,7 +126,7 @@ struct RenderSession::State {
 
   /// What lives on the device.
   void dropBuffers() {
-    picture.value.reset();
+    for (auto& picture : pictures) picture.value.reset();
     scene.value.reset();
     queues.value.reset();
   }
@@ -134,10 +134,11 @@ struct RenderSession::State {
   struct Prepared;
   Prepared prepare(const Scene& from, const Settings& settings, const RenderHooks& hooks, PhaseLog& log);
   OpenDevice& openFor(const Settings& settings, const RenderHooks& hooks);
-  void providePicture(Compute& compute, const Settings& settings, const Decisions& decisions);
+  void providePicture(Compute& compute, const Settings& settings, const Decisions& decisions, bool isPreview);
   void provideScene(Compute& compute, const Scene& from, const Settings& settings, const Decisions& decisions,
                     const RenderHooks& hooks, PhaseLog& log);
-  void provideQueues(Compute& compute, const Settings& settings, const Decisions& decisions, PhaseLog& log);
+  void provideQueues(Compute& compute, const Settings& settings, const Decisions& decisions, bool isPreview,
+                     PhaseLog& log);
 };
 
 void RenderWork::add(const RenderWork& other) {
@@ -198,7 +199,8 @@ OpenDevice& RenderSession::State::openFor(const Settings& settings, const Render
 
 /// An empty film, and the order of its pixels.
 void RenderSession::State::providePicture(Compute& compute, const Settings& settings,
-                                          const Decisions& decisions) {
+                                          const Decisions& decisions, bool isPreview) {
+  auto& picture = pictures[isPreview];
   const PictureKey wanted{tracedRegion(settings),
                           filmPlanes(settings, decisions.features.has(Feature::COVERAGE)),
                           decisions.features.has(Feature::AOVS), settings.adaptive || settings.resumable};
@@ -234,9 +236,11 @@ void RenderSession::State::provideScene(Compute& compute, const Scene& from, con
 }
 
 void RenderSession::State::provideQueues(Compute& compute, const Settings& settings,
-                                         const Decisions& decisions, PhaseLog& log) {
-  const QueueKey wanted{decisions.features.bits() & kQueueFeatures, queueCapacity(settings),
-                        decisions.compactChunk};
+                                         const Decisions& decisions, bool isPreview, PhaseLog& log) {
+  QueueKey wanted{decisions.features.bits() & kQueueFeatures, queueCapacity(settings),
+                  decisions.compactChunk};
+  // A preview takes larger ones that are there, and leaves them to the render that follows.
+  if (isPreview && queues.value) wanted.capacity = std::max(wanted.capacity, queues.key.capacity);
   work.queues = !queues.serves(wanted);
   if (work.queues)
     queues.remake(wanted, [&] {
@@ -266,10 +270,10 @@ RenderSession::State::Prepared RenderSession::State::prepare(const Scene& from, 
   auto compiled = std::async(std::launch::async,
                              [&] { return compileKernels(open, settings, decisions, hooks, compiling); });
   const auto allocating = Clock::now();
-  providePicture(open.compute, settings, decisions);
+  providePicture(open.compute, settings, decisions, hooks.isPreview);
   const double pictureSeconds = PhaseLog::secondsSince(allocating);
   provideScene(open.compute, from, settings, decisions, hooks, log);
-  provideQueues(open.compute, settings, decisions, log);
+  provideQueues(open.compute, settings, decisions, hooks.isPreview, log);
   Compiled built = compiled.get();
   log.add("compile kernels", compiling, built.seconds);
   work.programs = static_cast<int>(open.programs.total() - programsBefore);
@@ -308,7 +312,7 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
   const State::Prepared prepared = kept.prepare(scene, settings, hooks, log);
   const Decisions& decisions = prepared.decisions;
   Compute& compute = prepared.device.compute;
-  const PictureBuffers& picture = *kept.picture.value;
+  const PictureBuffers& picture = *kept.pictures[hooks.isPreview].value;
 
   say(hooks, kLastPhase);
   const auto rendering = Clock::now();
@@ -368,7 +372,7 @@ std::vector<RayTree> RenderSession::explain(const Scene& scene, const Settings& 
   Compute& compute = prepared.device.compute;
   StageRunner stages = runnerOf(compute, prepared.programs, decisions, *kept.queues.value);
   const WavefrontSetup setup = setupOf(scene, *kept.scene.value, settings, decisions, hooks);
-  const Buffer& film = kept.picture.value->film;
+  const Buffer& film = kept.pictures[hooks.isPreview].value->film;
   const Buffer none;
   Wavefront wavefront(compute, stages, *kept.queues.value, setup, film, none);
   const std::vector<std::uint32_t> pixel(FILM_BLOCK,

@@ -50,6 +50,9 @@ struct RenderHooks {
   /// Gets the picture so far after each pass but the last, which is the result; passes then multiply the
   /// samples. May be empty.
   std::function<void(RenderResult)> shown;
+  /// One sample for each pixel and no more. A session keeps its film beside that of other renders, so that
+  /// the two take turns and nothing is allocated.
+  bool isPreview = false;
   /// Looks from here in the place of Settings::camera, which says what is compiled: a camera that is
   /// orthographic, or has a near plane that cuts, needs those features kept. Null: the scene's.
   const Camera* camera = nullptr;

@@ -55,6 +55,7 @@ class SamplingLoop {
   bool looks() const;
   std::vector<SamplePass> nextPasses() const;
   double growth(double most) const;
+  double shownGrowth() const;
   std::uint32_t nextSamples() const;
   void takeOver(const RenderState& state);
   RenderState state();

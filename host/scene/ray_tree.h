@@ -9,6 +9,12 @@
 
 namespace whittle {
 
+/// What lets nothing of a light through.
+struct Blocker {
+  std::uint32_t primitive = 0;  ///< index of the triangle in the scene
+  double distance = 0;          ///< from the shadow ray's origin, metres
+};
+
 /// A ray towards a light that would have to be free for its light to arrive.
 struct ShadowRecord {
   std::uint32_t light = 0;  ///< of the scene's
@@ -16,6 +22,8 @@ struct ShadowRecord {
   double length = 0;           ///< metres
   glm::dvec3 contribution{0};  ///< radiance towards the ray's origin if nothing is in the way, W/(m² sr)
   glm::dvec3 arrived{0};       ///< what of it arrives
+  /// Where nothing does: the nearest, if anybody looked for it (findBlockers).
+  std::optional<Blocker> blocker = std::nullopt;
 };
 
 /// An impulse that is not followed.

@@ -12,9 +12,6 @@
 namespace whittle::view {
 namespace {
 
-/// Of the coarse picture's sides.
-constexpr int kCoarse = 4;
-
 double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -119,6 +116,11 @@ bool LiveRender::isWanted(std::uint64_t number) const {
   return number == asked_ && !stopped_ && !closing_;
 }
 
+bool LiveRender::isStopped() const {
+  const std::lock_guard lock(mutex_);
+  return stopped_ || closing_;
+}
+
 void LiveRender::fail(const std::string& text) {
   {
     const std::lock_guard lock(mutex_);
@@ -137,8 +139,8 @@ void LiveRender::show(RenderResult result, std::uint64_t number, bool coarse, bo
   }
   {
     const std::lock_guard lock(mutex_);
-    // A stopped request's last pass may lack samples of some pixels.
-    if (number != asked_) return;
+    // A stopped request's last pass may lack samples of some pixels; a coarse one is whole.
+    if (number != asked_ && !coarse) return;
     shown_ = {whole, region, number, rendering_, coarse, finished};
   }
   whole_ = std::move(whole);
@@ -164,9 +166,37 @@ RenderHooks LiveRender::hooksFor(std::uint64_t number, bool coarse) {
     progress_.share = std::min(1.0, p.samplesDone / p.samplesTotal);
   };
   hooks.shown = [this, number](RenderResult result) {
-    if (isWanted(number)) show(std::move(result), number, false, false);
+    if (!isWanted(number)) return;
+    noteFull(result);
+    show(std::move(result), number, false, false);
   };
   return hooks;
+}
+
+/// With the sampler of the full picture, so that nothing else is compiled.
+void LiveRender::renderCoarse(const Request& request, std::uint64_t number, const Settings& settings,
+                              int divisor) {
+  Settings coarse = settings;
+  coarse.width /= divisor;
+  coarse.height /= divisor;
+  if (coarse.crop) coarse.crop = coarseRegion(*coarse.crop, coarse.width, coarse.height, divisor);
+  const auto began = std::chrono::steady_clock::now();
+  RenderHooks hooks = hooksFor(number, true);
+  hooks.camera = &request.camera;
+  hooks.isPreview = true;
+  hooks.keepGoing = [&] { return isWanted(number) || (since(began) < kFinishedWithin && !isStopped()); };
+  RenderResult result = session_.render(*request.scene, coarse, hooks);
+  if (result.stats.samples.least < 1) return;  // it was cut off
+  pace_.tookCoarse(static_cast<double>(tracedRegion(coarse).pixels()), result.stats.time.render);
+  show(std::move(result), number, true, false);
+  shownAt_ = std::chrono::steady_clock::now();
+}
+
+/// What its first pass tells.
+void LiveRender::noteFull(const RenderResult& result) {
+  if (result.stats.samples.most != 1) return;
+  pace_.tookFull(static_cast<double>(tracedRegion(rendering_).pixels()), result.stats.time.render);
+  shownAt_ = std::chrono::steady_clock::now();
 }
 
 void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
@@ -177,22 +207,10 @@ void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
   Settings settings = request.settings;
   settings.keepFeatures |= featuresOfCamera(request);
   RenderWork work;
-  if (request.coarseFirst && settings.width >= 2 * kCoarse && settings.height >= 2 * kCoarse) {
-    Settings coarse = settings;
-    coarse.width /= kCoarse;
-    coarse.height /= kCoarse;
-    if (coarse.crop) coarse.crop = coarseRegion(*coarse.crop, coarse.width, coarse.height, kCoarse);
-    // The sampler of the full picture, so that nothing else is compiled, but its first pass alone.
-    RenderHooks hooks = hooksFor(number, true);
-    hooks.camera = &request.camera;
-    bool hasFirst = false;
-    const auto showFirst = [&](RenderResult result) {
-      if (!hasFirst && isWanted(number)) show(std::move(result), number, true, false);
-      hasFirst = true;
-    };
-    hooks.shown = showFirst;
-    hooks.keepGoing = [&] { return !hasFirst && isWanted(number); };
-    showFirst(session_.render(scene, coarse, hooks));  // where one pass was all
+  const double pixels = static_cast<double>(tracedRegion(settings).pixels());
+  const int divisor = request.coarseFirst ? pace_.divisor(pixels, since(shownAt_)) : 1;
+  if (divisor > 1 && std::min(settings.width, settings.height) >= 2 * divisor) {
+    renderCoarse(request, number, settings, divisor);
     work = session_.work();
   }
   if (!isWanted(number)) return;
@@ -205,7 +223,9 @@ void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
     const std::lock_guard lock(mutex_);
     progress_.work = work;
   }
-  if (whole) show(std::move(result), number, false, true);
+  if (!whole) return;
+  noteFull(result);
+  show(std::move(result), number, false, true);
 }
 
 void LiveRender::loop() {

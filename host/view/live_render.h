@@ -17,6 +17,7 @@
 #include "scene/appearance.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
+#include "view/pace.h"
 
 namespace whittle::view {
 
@@ -27,7 +28,7 @@ struct Request {
   std::shared_ptr<const Appearance> appearance;
   Camera camera;  ///< in the place of all of the scene's
   Settings settings;
-  /// First a picture of a quarter of the width and height, with one sample for each pixel.
+  /// A coarse picture may come first, of one sample for each of fewer pixels (Pace).
   bool coarseFirst = false;
   /// With a region the rest of the picture is of what was shown before for the same album.
   std::uint64_t album = 0;
@@ -82,9 +83,12 @@ class LiveRender {
   };
   void loop();
   void renderRequest(const Request& request, std::uint64_t number);
+  void renderCoarse(const Request& request, std::uint64_t number, const Settings& settings, int divisor);
+  void noteFull(const RenderResult& result);
   RenderHooks hooksFor(std::uint64_t number, bool coarse);
   void show(RenderResult result, std::uint64_t number, bool coarse, bool finished);
   bool isWanted(std::uint64_t number) const;
+  bool isStopped() const;
   void fail(const std::string& text);
   void take(const Request& request);
   std::uint64_t featuresOfCamera(const Request& request);
@@ -97,8 +101,10 @@ class LiveRender {
   Settings rendering_;       ///< of the request under way
   std::uint64_t album_ = 0;  ///< the same
   std::shared_ptr<const Scene> onDevice_;
-  bool keepsNearPlane_ = false;                ///< some camera of that scene needed it
-  std::shared_ptr<const RenderResult> whole_;  ///< what was shown last for that album; null: nothing
+  Pace pace_;
+  std::chrono::steady_clock::time_point shownAt_{};  ///< the last first picture of a request
+  bool keepsNearPlane_ = false;                      ///< some camera of that scene needed it
+  std::shared_ptr<const RenderResult> whole_;        ///< what was shown last for that album; null: nothing
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -21,9 +21,8 @@ class SceneEditor : public EditModel {
   struct Owner {
     std::function<void()> edited;  ///< another picture is wanted
     std::function<void(bool isError, std::string)> say;
-    /// Writes a copy of the scene's file and returns what was written. Throws.
-    std::function<std::string(const std::filesystem::path& copy, const Appearance& file,
-                              const Appearance& edited)>
+    /// Writes a copy of the scene's file and says what was written, or why nothing was.
+    std::function<void(const std::filesystem::path& copy, const Appearance& file, const Appearance& edited)>
         save;
     std::function<const Camera&()> camera;
     std::function<double()> aspect;  ///< of the picture

@@ -48,12 +48,6 @@ void SceneEditor::moveLight(std::size_t light, double right, double up) {
   owner_.edited();
 }
 
-void SceneEditor::save(const std::filesystem::path& file) {
-  try {
-    owner_.say(false, owner_.save(file, ofFile_, appearance()));
-  } catch (const std::exception& e) {
-    owner_.say(true, e.what());
-  }
-}
+void SceneEditor::save(const std::filesystem::path& file) { owner_.save(file, ofFile_, appearance()); }
 
 }  // namespace whittle::view

@@ -62,6 +62,8 @@ Script::Script(const std::string& text) {
 
 bool Script::step(Stage& stage) {
   while (next_ < commands_.size()) {
+    if (!started_ && stage.isSaving())
+      return true;  // what was to be written is there before the next command
     if (!started_) started_ = stage.now(), frame_ = 0;
     const Command& command = commands_[next_];
     if (command.words[0] != "wait") stage.redraw();
@@ -91,6 +93,9 @@ bool Script::wait(Stage& stage, const Command& command) {
     fail(command.line, fmt::format("wait for '{}'?", w[1]));
   // The command before may need a frame to be noticed.
   if (frame_ > 1 && isThere()) return true;
+  const std::string why = stage.impasse();
+  if (frame_ > 1 && !why.empty())
+    throw InputError(fmt::format("script, line {}: nothing to wait for: {}", command.line, why));
   if (waited > patience) fail(command.line, fmt::format("waited {:.0f} s for '{}'", waited, w[1]));
   return false;
 }
@@ -110,6 +115,8 @@ bool Script::drag(Stage& stage, const Command& command) {
   }
   const bool isClick = command.words[0] == "click";
   if (at.size() != (isClick ? 2U : 4U)) fail(command.line, "places are numbers");
+  if (isClick)
+    for (double& place : at) place += 0.5;  // the middle of the pixel, however small it is drawn
   const double x1 = isClick ? at[0] : at[2], y1 = isClick ? at[1] : at[3];
   if (frame_ == 0) {
     stage.pointer({at[0], at[1], ofWindow});

@@ -44,6 +44,10 @@ class Stage {
   virtual void saveScene(const std::filesystem::path& file) = 0;                ///< as EditModel::save
   virtual bool hasPicture() const = 0;  ///< of what was asked for last, coarse or not
   virtual bool isFinished() const = 0;
+  /// Why what was asked for last will never be there; empty: it is there or on its way.
+  virtual std::string impasse() const = 0;
+  /// Files are being written.
+  virtual bool isSaving() const = 0;
   /// Nothing that is known is still on its way to the window.
   virtual bool showsNewest() const = 0;
   virtual std::string stateJson() const = 0;
@@ -57,8 +61,9 @@ class Script {
   /// Throws InputError, in one line that names the script's line, for what is no command.
   explicit Script(const std::string& text);
 
-  /// Does what can be done in this frame. False: it has ended. Throws std::runtime_error, in one line that
-  /// names the script's line, for what was expected and is not so, and for what was waited for too long.
+  /// Does what can be done in this frame. False: it has ended. Throws, in one line that names the script's
+  /// line: InputError where what is waited for will never come, since a file or an option was refused;
+  /// std::runtime_error for what was expected and is not so, and for what was waited for too long.
   bool step(Stage& stage);
 
  private:

@@ -24,8 +24,11 @@ namespace whittle::view {
 /// settings; no control.
 inline constexpr const char* kReferenceSwitch = "with-reference";
 
-/// An orthographic view of so many metres, likewise.
+/// An orthographic view of so many metres, a vertical field of view in degrees, and a camera of the file by
+/// name or number, likewise.
 inline constexpr const char* kHeightSetting = "ortho-height";
+inline constexpr const char* kFovSetting = "fov";
+inline constexpr const char* kCameraSetting = "camera";
 
 /// One setting as a widget: its value is text, as on the command line.
 struct Control {
@@ -88,6 +91,10 @@ class ViewModel {
   virtual bool isFinished() const = 0;
   /// It is of what was asked for last, coarse or not.
   virtual bool hasPicture() const = 0;
+  /// Why what was asked for last will never be there, in one line; empty: it is there or on its way.
+  virtual std::string impasse() const = 0;
+  /// A picture or a copy of the scene is being written.
+  virtual bool isSaving() const = 0;
   /// Its codes are of the newest result and of exposure, tone map and layer as they are set.
   virtual bool hasNewestCodes() const = 0;
   /// Lines for the user: notes of loading, what was written, what went wrong; the newest last.
@@ -164,8 +171,9 @@ class ViewModel {
   /// A scene, or an environment (.hdr, .exr).
   virtual void open(const std::filesystem::path& file) = 0;
   virtual void reload() = 0;
-  /// Writes what is shown as .png and .exr, called after the scene, where the program was started; a message
-  /// says where. With a region that alone is written, as `whittle render --crop` does, and its name says so.
+  /// Writes what is shown, beside the window's thread, as .png and .exr, called after the scene, where the
+  /// program was started; a message says where. With a region that alone is written, as `whittle render
+  /// --crop` does, and its name says so.
   virtual void save() = 0;
   virtual void stop() = 0;
   /// Statistics and state as JSON text, for scripts: stats.…, view.….

@@ -29,7 +29,10 @@ bool isOfBackground(const std::string& id) {
 }
 
 /// Settings that put something into the scene.
-bool isOfLoading(const std::string& id) { return id == "area-lights" || id == "sky" || id == "sky-light"; }
+bool isOfLoading(const std::string& id) {
+  return id == "area-lights" || id == "sky" || id == "sky-light" || id == "time" || id == "animation" ||
+         id == "scene" || id == "background";
+}
 
 }  // namespace
 
@@ -85,6 +88,7 @@ HandCamera Viewer::held(const Camera& camera) const {
 }
 
 void Viewer::load(const std::filesystem::path& file, bool keepsCamera) {
+  ++loadsUnderWay_;
   live_.run("reading the scene", [this, file, keepsCamera, settings = settings_]() mutable {
     Loaded loaded;
     loaded.before = loaded.settings = settings;
@@ -95,6 +99,7 @@ void Viewer::load(const std::filesystem::path& file, bool keepsCamera) {
       loaded.problem = e.what();
     }
     const std::lock_guard lock(mutex_);
+    loaded.loads = loaded_ ? loaded_->loads + 1 : 1;
     loaded_ = std::move(loaded);
   });
 }
@@ -107,13 +112,14 @@ void Viewer::settle(const Loaded& loaded) {
   take(&Settings::width);
   take(&Settings::height);
   take(&Settings::camera);
-  take(&Settings::ambient);
+  if (!isAmbientByHand_) take(&Settings::ambient);
   take(&Settings::crop);
   if (settings_.crop && !liesWithin(*settings_.crop, settings_.width, settings_.height))
     settings_.crop.reset();
 }
 
 void Viewer::takeOver(Loaded loaded) {
+  loadProblem_ = loaded.problem;
   if (!loaded.scene) {
     say(true, loaded.problem);
     if (!isTraced()) ask();  // what was under way goes on
@@ -157,8 +163,10 @@ SceneEditor::Owner Viewer::owner() {
   owner.edited = [this] { edited(); };
   owner.say = [this](bool isError, std::string text) { say(isError, std::move(text)); };
   owner.save = [this](const std::filesystem::path& copy, const Appearance& file, const Appearance& edited) {
-    if (!scene_) throw InputError("there is no scene yet");
-    return services_.saveScene(copy, *scene_, file, edited);
+    if (!scene_) return say(true, "there is no scene yet");
+    saveAside("writing a copy of the scene", [this, scene = scene_, copy, file, edited] {
+      return services_.saveScene(copy, *scene, file, edited);
+    });
   };
   owner.camera = [this]() -> const Camera& { return camera_.camera(); };
   owner.aspect = [this] { return aspect(); };
@@ -234,12 +242,17 @@ bool Viewer::update() {
     loaded.swap(loaded_);
     followed.swap(delivered_);
   }
-  if (loaded) takeOver(std::move(*loaded)), isNew = true;
+  if (loaded) {
+    loadsUnderWay_ -= loaded->loads;
+    takeOver(std::move(*loaded));
+    isNew = true;
+  }
   if (followed && followed->number == followed_) {
     explained_ = explainedOf(std::move(*followed)), isNew = true;
     const auto& rays = explained_->tree.rays;
     if (!rays.empty() && rays[0].hit) editor_.choose(Part::Material, rays[0].hit->material);
   }
+  isNew |= takeSaved();
   isNew |= updatePicture();
   isNew |= comparison_.update(messages_);
   const std::string error = live_.progress().error;
@@ -249,6 +262,13 @@ bool Viewer::update() {
     isNew = true;
   }
   return isNew;
+}
+
+std::string Viewer::impasse() const {
+  if (isFinished() || loadsUnderWay_ > 0) return {};
+  if (!scene_) return loadProblem_.empty() ? "no scene is open" : loadProblem_;
+  const Progress p = live_.progress();
+  return p.doing.empty() ? p.error : std::string();
 }
 
 std::string Viewer::value(const std::string& id) const {
@@ -263,6 +283,8 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
   if (id == kLayerControl) return showLayer(text);
   if (id == kReferenceSwitch) return switchReference(text);
   if (id == kHeightSetting) return setHeight(text);
+  if (id == kCameraSetting) return setCamera(text);
+  if (id == kFovSetting) return setFov(text);
   if (SceneEditor::isId(id)) return editor_.set(id, text);
   if (Comparison::has(id)) return comparison_.set(id, text);
   Settings changed = settings_;
@@ -274,13 +296,14 @@ std::string Viewer::set(const std::string& id, const std::string& text) {
   if (changed.width != settings_.width || changed.height != settings_.height) changed.crop.reset();
   settings_ = changed;
   renewStandards();
-  if (id == "sky")
+  if (id == "ambient") isAmbientByHand_ = settings_.ambient.has_value();
+  if (id == "sky" && !isAmbientByHand_)
     settings_.ambient = Settings{}.ambient;  // loading chooses it again: a sky's is a hundredfold
   if (isOfCodes(id))
     makeCodes();
   else if (isOfBackground(id))
     edited();
-  else if (isOfLoading(id))
+  else if (isOfLoading(id) || (id == "ambient" && !settings_.ambient))
     load({}, true), request_ = 0;  // what is shown is of the settings before
   else
     ask();
@@ -304,20 +327,6 @@ void Viewer::setMoving(bool isMoving) { isMoving_ = isMoving; }
 
 void Viewer::open(const std::filesystem::path& file) { load(file, false); }
 void Viewer::reload() { load({}, true); }
-
-void Viewer::save() {
-  if (!shown_.result || !scene_ || shown_.coarse) return say(true, "there is no picture yet");
-  // Around a region the picture is of other settings, or of none.
-  std::string name = file_.stem().string();
-  if (shown_.region) name += "-crop-" + services_.value(shown_.asked, "crop");
-  try {
-    const RenderResult& result = shown_.region ? *shown_.region : *shown_.result;
-    const std::string wrote = services_.save(name, result, *scene_, settings_);
-    say(false, shown_.region ? wrote + ": the region alone" : wrote);
-  } catch (const std::exception& e) {
-    say(true, e.what());
-  }
-}
 
 std::string Viewer::stateJson() const {
   nlohmann::ordered_json state;
@@ -343,6 +352,8 @@ std::string Viewer::stateJson() const {
                    {"options", optionsText()},
                    {"camera", cameraText()},
                    {"explainedRays", explained_ ? explained_->tree.rays.size() : 0},
+                   {"explainedX", explained_ ? explained_->x : -1},
+                   {"explainedY", explained_ ? explained_->y : -1},
                    {"isCompared", explained_ && !explained_->verdict.empty()},
                    {"parts", explained_ && explained_->parts}};
   state["edit"] = editor_.state();

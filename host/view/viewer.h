@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -73,6 +74,8 @@ class Viewer : public ViewModel {
   Progress progress() const override { return live_.progress(); }
   bool isFinished() const override;
   bool hasPicture() const override { return shown_.result && shown_.request == request_; }
+  std::string impasse() const override;
+  bool isSaving() const override { return !saves_.empty(); }
   bool hasNewestCodes() const override { return codesMade_ == codesAsked_; }
   const std::vector<Message>& messages() const override { return messages_; }
   const std::vector<Control>& controls() const override { return services_.controls; }
@@ -123,6 +126,7 @@ class Viewer : public ViewModel {
     std::vector<std::string> notes;
     bool keepsCamera = false;
     std::string problem;  ///< why there is no scene
+    int loads = 1;        ///< that ended since the last one was taken over
   };
   void load(const std::filesystem::path& file, bool keepsCamera);
   void takeOver(Loaded loaded);
@@ -168,9 +172,13 @@ class Viewer : public ViewModel {
   void codesInto(Made& made, const std::string& layer) const;
   void takePicture(Made made);
   void lookAtFile();
+  void saveAside(const char* doing, std::function<std::string()> write);
+  bool takeSaved();
   std::string showLayer(const std::string& layer);
   std::string switchReference(const std::string& text);
   std::string setHeight(const std::string& text);
+  std::string setCamera(const std::string& text);
+  std::string setFov(const std::string& text);
 
   Services services_;
   Settings settings_;
@@ -198,6 +206,9 @@ class Viewer : public ViewModel {
   std::uint64_t codesAsked_ = 0, codesMade_ = 0;  ///< how often codes were asked for; which are there
   std::vector<Message> messages_;
   std::string lastError_;
+  int loadsUnderWay_ = 0;
+  std::string loadProblem_;       ///< of the last scene that was read; empty: none
+  bool isAmbientByHand_ = false;  ///< no load chooses it then
   /// The scene's file, and when it was written as far as is known; an exporter that is still at it is waited
   /// for.
   std::filesystem::path file_;
@@ -215,6 +226,8 @@ class Viewer : public ViewModel {
   Comparison comparison_;
   NewestWorker coder_;
   LiveRender live_;
+  std::mutex saving_;  ///< held while something is written
+  std::vector<std::future<Message>> saves_;
 };
 
 }  // namespace whittle::view

@@ -117,6 +117,26 @@ std::string Viewer::setHeight(const std::string& text) {
   return {};
 }
 
+std::string Viewer::setFov(const std::string& text) {
+  char* end = nullptr;
+  const double degrees = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || !(degrees >= 0.001 && degrees <= 179))
+    return fmt::format("{}: '{}' is not from 0.001 to 179 degrees", kFovSetting, text);
+  if (orthographicHeight()) switchOrthographic();
+  setFieldOfView(degrees);
+  return {};
+}
+
+std::string Viewer::setCamera(const std::string& text) {
+  if (!scene_) return fmt::format("{}: there is no scene yet", kCameraSetting);
+  try {
+    chooseCamera(findCamera(*scene_, text));
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return {};
+}
+
 std::string Viewer::cameraText() const {
   return scene_ ? services_.cameraText(camera_.camera(), scene_->origin) : std::string();
 }

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "reference/blockers.h"
 #include "reference/reference.h"
 #include "render/explanation.h"
 #include "report/text.h"
@@ -15,7 +16,8 @@ void Viewer::explain(double x, double y) {
   follow(static_cast<int>(x * settings_.width), static_cast<int>(y * settings_.height));
 }
 
-/// The reference comes later: it builds a tree over the scene of its own.
+/// What stands in the way of lights comes later, and the reference last: it builds a tree over the scene of
+/// its own.
 void Viewer::follow(int x, int y) {
   const std::uint64_t number = ++follows_;
   Followed followed{number, request(), x, y, {}, {}};
@@ -24,8 +26,10 @@ void Viewer::follow(int x, int y) {
       followed.request, x, y, [this, compares, followed](const std::vector<RayTree>& trees) mutable {
         followed.tree = trees.at(0);
         deliver(followed);
-        if (!compares) return;
         const Request& r = followed.request;
+        findBlockers(*r.scene, followed.tree);
+        deliver(followed);
+        if (!compares) return;
         followed.reference = referenceTrees(*r.scene, r.settings, followed.x, followed.y, &r.camera, 1).at(0);
         deliver(followed);
       });

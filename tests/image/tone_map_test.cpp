@@ -167,6 +167,20 @@ TEST(ToneMap, ExposureIsChosenOnlyWhereThePictureDoesNotFit) {
   EXPECT_NEAR(stops, std::log2(2 / 1e5), 0.051);
 }
 
+/// One ray in eight meets a lamp, another in each square; the mean of a square is what many rays would see.
+TEST(ToneMap, ExposureByBlocksIsNotThatOfTheNoise) {
+  constexpr float kMean = 20;
+  FloatImage many{64, 32, 1, std::vector<float>(64 * 32, kMean)}, few{64, 32, 1, std::vector<float>(64 * 32)};
+  for (int y = 0; y < few.height; ++y)
+    for (int x = 0; x < few.width; ++x)
+      few.pixels[static_cast<std::size_t>(y) * 64 + x] = x % 8 == y % 8 ? 7 * kMean : kMean / 7;
+  // The mean is (7 + 7/7) / 8 = 1 times kMean; that of the logarithms is 6/8 · log2 7 = 2.1 stops lower.
+  EXPECT_NEAR(fittingExposure(many, kNoisyBlock), std::log2(0.18 / kMean), 0.051);
+  EXPECT_NEAR(fittingExposure(few, kNoisyBlock), fittingExposure(many, kNoisyBlock), 0.101);
+  // Each pixel by itself: 2.1 stops more, but for the highlights, which stay within a stop above white.
+  EXPECT_NEAR(fittingExposure(few), 1 - std::log2(7 * kMean), 0.051);
+}
+
 TEST(ToneMap, WithoutRollOffEachCodeComesOutAsItWentIn) {
   std::vector<float> values;
   for (int i = 0; i < 256; ++i) values.push_back(static_cast<float>(srgbDecode(i / 255.0)));

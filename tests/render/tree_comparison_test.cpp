@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "reference/blockers.h"
 #include "reference/reference.h"
 #include "render/explanation.h"
 #include "render/render_session.h"
@@ -171,6 +172,20 @@ TEST(TreeComparison, TellsAShadowRayThatIsBlockedInOneAlone) {
       }
     EXPECT_EQ(told, 1);
   }
+}
+
+TEST(TreeComparison, TellsWhatBlocksAShadowRay) {
+  Scene scene = screenScene(1);
+  scene.materials[1].name = "screen";
+  scene.lights[0].intensity = {10, 0, 0};
+  Compared c(scene, scene, 1);
+  findBlockers(scene, c.kernels);
+  std::string told;
+  for (const RayLine& line : rayLines(c.kernels, 0, scene)) told += line.text + "\n";
+  EXPECT_NE(told.find("shadow ray to \"second\", "), std::string::npos) << told;
+  EXPECT_NE(told.find("blocked by \"screen\", triangle "), std::string::npos) << told;
+  EXPECT_NE(told.find(" 0 0 arrives"), std::string::npos)
+      << "all of the red lamp, which has nothing else: " << told;
 }
 
 TEST(TreeComparison, TellsRaysThatOneAloneHas) {

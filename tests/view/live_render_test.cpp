@@ -95,6 +95,53 @@ INSTANTIATE_TEST_SUITE_P(Times, LostDevice,
                          testing::Values(FailingDevice::When::BeforeTheFirstLaunch,
                                          FailingDevice::When::BetweenTwoPasses));
 
+/// Moves that follow each other faster than pictures: each would end the one before, and none be seen.
+TEST(LiveRender, ACoarsePictureUnderWayIsFinishedThoughANewerOneIsAskedFor) {
+  const auto scene = std::make_shared<Scene>(ownScene("cornell_box"));
+  Settings settings = onTestDevice(smallSettings(2));
+  settings.width = 1280, settings.height = 720;  // more than a thirtieth of a second of two cores
+  settings.raysPerPixel = 2;
+  Request request{scene, std::make_shared<const Appearance>(appearanceOf(*scene)), scene->cameras[0],
+                  settings, true};
+  std::atomic<bool> isMoving{false};
+  std::atomic<std::uint64_t> first{0}, second{0}, coarseOfFirst{0};
+  LiveRender* rendering = nullptr;
+  LiveRender live(
+      [&] {
+        if (!isMoving) return;
+        const view::Shown shown = rendering->shown();
+        if (shown.coarse && first > 0 && shown.request == first) ++coarseOfFirst;
+        if (first > 0 && second == 0 && rendering->progress().doing == kLastPhase)
+          second = rendering->ask(request);
+      },
+      {}, testKernelFolder());
+  rendering = &live;
+  const auto waitFor = [&](std::uint64_t number) {
+    for (int i = 0; i < 12000; ++i) {
+      const view::Shown shown = live.shown();
+      if (shown.finished && shown.request == number) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    ADD_FAILURE() << "waited for two minutes: " << live.progress().error;
+  };
+  waitFor(live.ask(request));  // compiles
+  const auto rest = [] { std::this_thread::sleep_for(std::chrono::milliseconds(100)); };
+  rest();
+  bool comesCoarse = false;
+  const std::uint64_t slow = live.ask(request);
+  while (!live.shown().finished || live.shown().request != slow) {
+    comesCoarse |= live.shown().coarse;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  if (!comesCoarse) GTEST_SKIP() << "this machine is so fast that full pictures come first";
+  rest();
+  isMoving = true;
+  first = live.ask(request);
+  while (second == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  waitFor(second);
+  EXPECT_GT(coarseOfFirst, 0U);
+}
+
 /// Its search begins every eye ray anew, so a window without one would be slower than `render`.
 TEST(LiveRender, ANearPlaneIsCompiledForTheFirstCameraThatCutsSomething) {
   const auto scene = std::make_shared<Scene>(ownScene("cornell_box"));

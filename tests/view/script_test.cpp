@@ -33,6 +33,8 @@ class Recorder : public view::Stage {
   }
   bool hasPicture() const override { return time > 2; }
   bool isFinished() const override { return time > 5; }
+  std::string impasse() const override { return problem; }
+  bool isSaving() const override { return time < savedAt; }
   bool showsNewest() const override { return time >= codesAt; }
   std::string stateJson() const override {
     return R"({"stats":{"rays":{"shadow":12},"name":"tree","list":[1,2]},"view":{"coarse":false}})";
@@ -44,7 +46,8 @@ class Recorder : public view::Stage {
   std::string log;
   std::vector<std::pair<double, double>> places;
   bool isDown = false;
-  double time = 0, codesAt = 0;
+  double time = 0, codesAt = 0, savedAt = 0;
+  std::string problem;
 };
 
 /// Runs to the end, a frame a tenth of a second.
@@ -88,6 +91,42 @@ TEST(Script, Waits) {
   EXPECT_GT(played("wait refined").time, 5);
   EXPECT_NEAR(played("wait 3").time, 3, 0.2);
   EXPECT_EQ(failure("key r\nwait refined 1").rfind("script, line 2: waited", 0), 0U);
+}
+
+/// As where an option was refused: whoever waits is told at once, as the command line would tell him.
+TEST(Script, WaitsForNothingThatWillNeverCome) {
+  Recorder stage;
+  stage.problem = "--ortho-height: needs --eye or --orbit";
+  view::Script script("key r\nwait refined");
+  std::string said;
+  try {
+    while (script.step(stage)) stage.time += 0.1;
+  } catch (const InputError& e) {
+    said = e.what();
+  }
+  EXPECT_EQ(said, "script, line 2: nothing to wait for: --ortho-height: needs --eye or --orbit");
+  EXPECT_LT(stage.time, 1);
+}
+
+TEST(Script, WhatIsSavedIsThereBeforeTheNextCommand) {
+  Recorder stage;
+  view::Script script("save-scene a.glb\ndrop a.glb\n");
+  script.step(stage);
+  stage.savedAt = 3;
+  double droppedAt = -1;
+  for (int i = 0; i < 1000 && script.step(stage); ++i) {
+    if (droppedAt < 0 && stage.log.find("drop") != std::string::npos) droppedAt = stage.time;
+    stage.time += 0.1;
+  }
+  EXPECT_GE(droppedAt, 3);
+}
+
+TEST(Script, AClickIsInTheMiddleOfItsPixel) {
+  Recorder stage;
+  view::Script script("click 8 5");
+  while (script.step(stage)) stage.time += 0.1;
+  ASSERT_FALSE(stage.places.empty());
+  EXPECT_EQ(stage.places.front(), std::pair(8.5, 5.5));
 }
 
 TEST(Script, ExpectsOfNumbersAndWords) {

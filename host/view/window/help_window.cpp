@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kKeys[][2] = {
     {"left drag", "orbit about what is under the mouse"},
     {"middle drag, Shift + left", "pan"},
-    {"click", "the rays of a pixel: a list, and lines over the picture"},
+    {"click", "why a pixel is as it is: its rays, and what blocks lights"},
     {"wheel", "zoom towards what is under the mouse"},
     {"right drag", "look around"},
     {"W A S D, Q E", "fly; down, up"},
@@ -19,7 +19,7 @@ constexpr const char* kKeys[][2] = {
     {"F", "frame all"},
     {"1  3  7", "from the front, from the right, from above"},
     {"5", "orthographic, and back"},
-    {"K", "keep the picture as the reference"},
+    {"K", "keep the picture as the reference, beside a line"},
     {"V, B, M", "the reference beside a line, in the picture's place, the difference"},
     {"Space", "the reference while it is held"},
     {"Ctrl+B, then drag", "render a region alone; Ctrl+B or Esc: all"},

@@ -112,7 +112,7 @@ void Window::drop(const std::string& file) {
   framesToDraw_ = kFramesAfterEvent;
 }
 
-bool Window::isBusy() const { return !model_.progress().doing.empty(); }
+bool Window::isBusy() const { return !model_.progress().doing.empty() || model_.isSaving(); }
 bool Window::isMinimised() const { return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE; }
 
 void Window::run() {

@@ -50,6 +50,8 @@ class Window : public Stage {
   void saveScene(const std::filesystem::path& file) override { model_.edits().save(file); }
   bool hasPicture() const override { return model_.hasPicture(); }
   bool isFinished() const override { return model_.isFinished(); }
+  std::string impasse() const override { return model_.impasse(); }
+  bool isSaving() const override { return model_.isSaving(); }
   bool showsNewest() const override { return model_.hasNewestCodes(); }
   std::string stateJson() const override;
   void print(const std::string& text) override { options_.print(text); }
@@ -113,7 +115,8 @@ class Window : public Stage {
   };
   Rect pictureRect(float left, float top, float width, float height) const;
   ImVec2 inPicture(const ImVec2& pointer) const;  ///< [0, 1]²
-  ImVec2 inWindow(double x, double y) const;      ///< from there
+  ImVec2 mouse() const;
+  ImVec2 inWindow(double x, double y) const;  ///< from there
   bool isBusy() const;
   bool isMinimised() const;
 

@@ -53,6 +53,13 @@ void Window::pointer(const Place& place) {
                                      picture_.y + static_cast<float>(place.y) * scale);
 }
 
+/// The middle of the window's pixel that it is on; of a script's the place itself, since a small picture has
+/// several pixels in one of the window's.
+ImVec2 Window::mouse() const {
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  return isScripted_ ? pointer_ : ImVec2(at.x + 0.5F, at.y + 0.5F);
+}
+
 void Window::button(const std::string& name, bool isDown) {
   isScripted_ = true;
   buttons_[static_cast<std::size_t>(buttonOf(name))] = isDown;
@@ -66,7 +73,7 @@ void Window::moveCamera() {
   if (!isTaken && !io.WantCaptureMouse && picture_.height > 0) {
     const double dx = static_cast<double>(io.MouseDelta.x / picture_.height),
                  dy = static_cast<double>(io.MouseDelta.y / picture_.height);
-    const ImVec2 at = inPicture(io.MousePos);
+    const ImVec2 at = inPicture(mouse());
     if (dragHandle(dx, dy)) return;
     for (int b = 0; b < 3; ++b)
       if (ImGui::IsMouseClicked(b)) model_.holdPoint(static_cast<double>(at.x), static_cast<double>(at.y));

@@ -16,27 +16,6 @@
 #include "lib/surface/sky.cl"
 #include "lib/sampler.cl"
 
-#if HAS(BACKGROUND)
-INLINE Real3 backgroundAlong(const SceneView* scene, const RenderConstants* constants, Real3 d, Mask seen) {
-#if HAS(BACKGROUND_MAP)
-  float own[3][LANES];
-  int wanted[LANES];
-  STORE(d.x, own[0]);
-  STORE(d.y, own[1]);
-  STORE(d.z, own[2]);
-  STORE(seen, wanted);
-  for (uint k = 0; k < LANES; ++k) {
-    if (!wanted[k]) continue;
-    const float3 radiance = backgroundRadiance(scene, constants, (float3)(own[0][k], own[1][k], own[2][k]));
-    own[0][k] = radiance.x, own[1][k] = radiance.y, own[2][k] = radiance.z;
-  }
-  return real3(LOAD(own[0]), LOAD(own[1]), LOAD(own[2]));
-#else
-  return same3(backgroundRadiance(scene, constants, (float3)(0.0f)));
-#endif
-}
-#endif
-
 /// What the entries' samples are called.
 typedef struct {
   uint pixel[LANES];  // of the pass; of the film, where the sample is the first: all get that one in one pass

@@ -20,13 +20,16 @@ INLINE void addEnded(__global const float* impulses, uint capacity, uint i, uint
   }
 }
 
-__kernel void compact_count(const uint count, const uint capacity, __global const uchar* flags,
+__kernel void compact_count(const uint count, const uint capacity,
+                            const uint set,                  // of shadow candidates; impulses come with the first
+                            __global const uchar* flags,     // [sets][capacity]
                             __global const float* impulses,  // null: nothing can have ended
                             __global uint* totals) {         // [SUMS][chunks], of those that ended only with impulses
   const uint chunk = get_global_id(0);
   const uint begin = chunk * COMPACT_CHUNK;
   if (begin >= count) return;
   const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
+  flags += (size_t)set * capacity;
   uint shadows = 0, found = 0;
   ulong ended[ENDED_KINDS] = {0, 0, 0};
   for (uint i = begin; i < end; ++i) {
@@ -35,6 +38,7 @@ __kernel void compact_count(const uint count, const uint capacity, __global cons
     if (impulses && flags[i] >= ENTRY_ENDED0) addEnded(impulses, capacity, i, flags[i], ended);
   }
   totals[SUM_SHADOW * CHUNKS(count) + chunk] = shadows;
+  if (set > 0) return;
   totals[SUM_IMPULSE * CHUNKS(count) + chunk] = found;
   if (!impulses) return;
   for (uint kind = 0; kind < ENDED_KINDS; ++kind) {
@@ -45,9 +49,9 @@ __kernel void compact_count(const uint count, const uint capacity, __global cons
 
 /// One work item for each kind. Of the two kinds of rays totals[kind][i] becomes the sum of those before it and
 /// sums[kind] the sum of all; the ENDED_KINDS behind them are summed alone.
-__kernel void scan_chunks(const uint chunks, __global uint* totals, __global uint* sums) {
+__kernel void scan_chunks(const uint chunks, const uint kinds, __global uint* totals, __global uint* sums) {
   const uint kind = get_global_id(0);
-  if (!sums || kind >= SUM_ENDED + ENDED_KINDS) return;  // no sums: compiled ahead of its first launch
+  if (!sums || kind >= kinds) return;  // no sums: compiled ahead of its first launch
   if (kind >= SUM_ENDED) {
     const uint low = SUM_ENDED + 2 * (kind - SUM_ENDED);
     ulong ended = 0;
@@ -66,13 +70,15 @@ __kernel void scan_chunks(const uint chunks, __global uint* totals, __global uin
   sums[kind] = running;
 }
 
-__kernel void compact_shadow(const uint count, __global const uchar* flags,
+__kernel void compact_shadow(const uint count, const uint capacity, const uint set,
+                             __global const uchar* flags,   // [sets][capacity]
                              __global const uint* offsets,  // [2][chunks] exclusive sums
                              __global uint* shadowQueue) {  // [capacity]
   const uint chunk = get_global_id(0);
   const uint begin = chunk * COMPACT_CHUNK;
   if (begin >= count) return;
   const uint end = count - begin < COMPACT_CHUNK ? count : begin + COMPACT_CHUNK;
+  flags += (size_t)set * capacity;
   uint out = offsets[chunk];
   for (uint i = begin; i < end; ++i)
     if (flags[i] & ENTRY_SHADOW) shadowQueue[out++] = i;

@@ -45,11 +45,12 @@ INLINE void addLight(const ShadowLanes* s, int16 blocked, const uint* stops, __g
 }
 #endif
 
-__kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity,
+__kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity, const uint set,
                       __global const uint* shadowQueue,  // [count] entries with a shadow ray, in order
-                      __global const float* shadows,     // [SHADOW_PLANES][capacity] candidates by entry
+                      __global const float* shadows,     // [sets][SHADOW_PLANES][capacity] candidates by entry
                       __global float* entryRadiance) {   // [3][capacity]
   const SceneView scene = SCENE_VIEW;
+  shadows += (size_t)set * SHADOW_PLANES * capacity;
 #if HAS(PACKETS)
   const uint i = (uint)get_global_id(0) * PACKET_RAYS;
   if (i >= count) return;

@@ -1,7 +1,10 @@
 // shade: what happens at each hit, LANES of them for each work item. Reads rays and hits of a segment; writes the
-// entry's radiance (emission, background, light that needs no shadow ray), its shadow candidate for the first light,
-// its impulse candidates and their flags. What is written for an entry without its flag means nothing. shade_light: the
-// shadow candidate of a further light, one round for each light, so that memory does not grow with them.
+// entry's radiance (emission, background, light that need not wait), its candidates for the first group of lights, its
+// impulse candidates and their flags. What is written for an entry without its flag means nothing. shade_light: the
+// candidates of a further group, a launch for each, so that memory does not grow with the lights; lights are in groups
+// (host/analysis/light_groups.h), because it takes longer to find what lies at a hit than what a light does there.
+// add_light: the light of a candidate that needs no shadow ray but had to wait for those of another, so that sums keep
+// the order of the lights.
 #include "lib/arrivals.cl"
 #include "lib/surface/absorption.cl"
 #include "lib/surface/background.cl"
@@ -12,27 +15,6 @@
 #include "lib/surface/emitters.cl"
 #include "lib/surface/sky.cl"
 #include "lib/sampler.cl"
-
-#if HAS(BACKGROUND)
-INLINE Real3 backgroundAlong(const SceneView* scene, const RenderConstants* constants, Real3 d, Mask seen) {
-#if HAS(BACKGROUND_MAP)
-  float own[3][LANES];
-  int wanted[LANES];
-  STORE(d.x, own[0]);
-  STORE(d.y, own[1]);
-  STORE(d.z, own[2]);
-  STORE(seen, wanted);
-  for (uint k = 0; k < LANES; ++k) {
-    if (!wanted[k]) continue;
-    const float3 radiance = backgroundRadiance(scene, constants, (float3)(own[0][k], own[1][k], own[2][k]));
-    own[0][k] = radiance.x, own[1][k] = radiance.y, own[2][k] = radiance.z;
-  }
-  return real3(LOAD(own[0]), LOAD(own[1]), LOAD(own[2]));
-#else
-  return same3(backgroundRadiance(scene, constants, (float3)(0.0f)));
-#endif
-}
-#endif
 
 /// What the entries' samples are called.
 typedef struct {
@@ -86,11 +68,11 @@ INLINE Square sampleSquares(const RenderConstants* constants, const SampleNames*
 #endif
 
 #if HAS(LIGHTS)
-/// Direct light from one light where `lit`: a shadow candidate, or added to `radiance` at once where nothing can be in
-/// the way. names: of the entries, where the light is sampled. Returns ENTRY_SHADOW for a candidate, else 0.
+/// Direct light from one light where `lit`: a candidate if it has to wait, else added to `radiance` at once. names: of
+/// the entries, where the light is sampled. Returns ENTRY_SHADOW for a candidate, else 0.
 INLINE Natural directLight(const SceneView* scene, const RenderConstants* constants, const Surfel* s, Real3 w_o,
-                           Mask lit, uint lightIndex, Real3 attenuation, uint i, uint capacity, __global float* shadows,
-                           Real3* radiance, const SampleNames* names, uint bounce) {
+                           Mask lit, uint lightIndex, int waits, Real3 attenuation, uint i, uint capacity,
+                           __global float* shadows, Real3* radiance, const SampleNames* names, uint bounce) {
 #if HAS(UNLIT)
   lit = lit & ((s->flags & MATERIAL_UNLIT) == 0);
 #endif
@@ -120,17 +102,51 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
   lit = lit & notDark(contribution);
   const Real3 carried = mul3(contribution, attenuation);
 #if HAS(SHADOWS)
-  if (light->castsShadows) {
-    const ShadowRay ray = shadowRayAlong(constants, s, arriving.w_i, arriving.distance);
-    storeReal3(shadows, capacity, SHADOW_O, i, ray.o);
-    storeReal3(shadows, capacity, SHADOW_D, i, ray.d);
-    STORE(ray.length, shadows + (size_t)SHADOW_LENGTH * capacity + i);
+  if (waits) {
+    if (light->castsShadows) {
+      const ShadowRay ray = shadowRayAlong(constants, s, arriving.w_i, arriving.distance);
+      storeReal3(shadows, capacity, SHADOW_O, i, ray.o);
+      storeReal3(shadows, capacity, SHADOW_D, i, ray.d);
+      STORE(ray.length, shadows + (size_t)SHADOW_LENGTH * capacity + i);
+    }
     storeReal3(shadows, capacity, SHADOW_CONTRIBUTION, i, carried);
     return lit ? (Natural)(ENTRY_SHADOW) : (Natural)(0);
   }
 #endif
   *radiance = choose3(lit, add3(*radiance, carried), *radiance);
   return (Natural)(0);
+}
+#endif
+
+#if HAS(LIGHTS)
+/// The lights of a launch.
+typedef struct {
+  uint first, end;
+  uint waiting;  // the last of them, which have a set of candidates and of flags each
+} LightGroup;
+
+/// Of all sets but the first, whose flags hold more.
+INLINE void clearFlags(const LightGroup* group, uint i, uint capacity, __global uchar* flags) {
+  for (uint set = 1; set < group->waiting; ++set) storeFlags((Natural)(0), flags + (size_t)set * capacity + i);
+}
+
+/// directLight of each light of a group. Returns the flags of the first set, and stores those of the others.
+INLINE Natural directLights(const SceneView* scene, const RenderConstants* constants, const Surfel* s, Real3 w_o,
+                            Mask lit, const LightGroup* group, Real3 attenuation, uint i, uint capacity,
+                            __global float* shadows, __global uchar* flags, Real3* radiance, const SampleNames* names,
+                            uint bounce) {
+  Natural first = (Natural)(0);
+  for (uint light = group->first; light < group->end; ++light) {
+    const uint left = group->end - light, set = left < group->waiting ? group->waiting - left : 0;
+    const Natural found = directLight(scene, constants, s, w_o, lit, light, left <= group->waiting, attenuation, i,
+                                      capacity, shadows + (size_t)set * SHADOW_PLANES * capacity, radiance, names,
+                                      bounce);
+    if (set == 0)
+      first = first | found;
+    else
+      storeFlags(found, flags + (size_t)set * capacity + i);
+  }
+  return first;
 }
 #endif
 
@@ -267,13 +283,13 @@ INLINE void storeAovs(const SceneView* scene, const SampleNames* names, const Ar
 #endif
 
 __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch batch, const uint first,
-                    const uint count, const uint capacity, const uint bounce, const uint lastBounce, const uint width,
-                    const uint pixels, __global const uint* pixelOrder, __global const float* rays,
-                    __global const float* hits,
+                    const uint count, const uint capacity, const uint bounce, const uint lastBounce,
+                    const uint lightsEnd, const uint waiting, const uint width, const uint pixels,
+                    __global const uint* pixelOrder, __global const float* rays, __global const float* hits,
                     __global float* entryRadiance,  // [RADIANCE_PLANES…][capacity] of the segment's entries
-                    __global float* shadows,        // [SHADOW_PLANES][capacity]
+                    __global float* shadows,        // [waiting][SHADOW_PLANES][capacity]
                     __global float* impulses,       // [IMPULSES_OF_HIT IMPULSE_PLANES][capacity]
-                    __global uchar* flags,          // [capacity] ENTRY_…
+                    __global uchar* flags,          // [waiting][capacity] ENTRY_…
                     __global float* aovs) {         // [AOV_PLANES][pixels of the film], in the pixel order
   const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
@@ -287,6 +303,10 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #endif
   Natural found = (Natural)(0);
   Real3 radiance = same3((float3)(0.0f));
+#if HAS(LIGHTS)
+  const LightGroup group = {0, lightsEnd, waiting};
+  clearFlags(&group, i, capacity, flags);
+#endif
 #if HAS(COVERAGE)
   const Mask clear = comeFromEye(rays, first + i, capacity, bounce) & ((Natural)(own.backgroundClear) == 1u) & !a.hit;
   STORE(clear ? (Real)(1.0f) : (Real)(0.0f), entryRadiance + (size_t)RADIANCE_TRANSMITTANCE * capacity + i);
@@ -312,9 +332,8 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
     shaded = choose3((s.flags & MATERIAL_UNLIT) != 0, mul3(scale3(s.alpha, s.baseColor), attenuation), shaded);
 #endif
 #if HAS(LIGHTS)
-    if (lights)
-      found = found | directLight(&scene, &own, &s, w_o, a.hit, 0, attenuation, i, capacity, shadows, &shaded,
-                                  LIGHT_NAMES, bounce);
+    found = found | directLights(&scene, &own, &s, w_o, a.hit, &group, attenuation, i, capacity, shadows, flags,
+                                 &shaded, LIGHT_NAMES, bounce);
 #endif
 #if HAS(IMPULSES)
     Impulse one, two;
@@ -353,9 +372,10 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 
 #if HAS(LIGHTS)
 __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const Batch batch, const uint first,
-                          const uint count, const uint capacity, const uint bounce, const uint light, const uint width,
-                          __global const uint* pixelOrder, __global const float* rays, __global const float* hits,
-                          __global float* entryRadiance, __global float* shadows, __global uchar* flags) {
+                          const uint count, const uint capacity, const uint bounce, const uint lightsFirst,
+                          const uint lightsEnd, const uint waiting, const uint width, __global const uint* pixelOrder,
+                          __global const float* rays, __global const float* hits, __global float* entryRadiance,
+                          __global float* shadows, __global uchar* flags) {
   const uint i = (uint)get_global_id(0) * LANES;
   if (i >= count) return;
   const SceneView scene = SCENE_VIEW;
@@ -363,6 +383,8 @@ __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const B
   const Batch ownBatch = batch;
   const Arrivals a = arrivalsOf(&own, &ownBatch, rays, hits, first, count, capacity, bounce, 0, i);
   Natural found = (Natural)(0);
+  const LightGroup group = {lightsFirst, lightsEnd, waiting};
+  clearFlags(&group, i, capacity, flags);
   if (some(a.hit)) {
 #if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS)
     const uint active = count - i < LANES ? count - i : LANES;
@@ -371,10 +393,21 @@ __kernel void shade_light(SCENE_PARAMS, const RenderConstants constants, const B
     const Surfel s = surfelAt(&scene, a.triangle, a.o, a.d, a.t, a.b1, a.b2, footprintOf(&own, &a));
     const Real3 attenuation = absorptionAlong(&s, distanceInside(&a));
     Real3 radiance = loadReal3(entryRadiance, capacity, 0, i);
-    found = directLight(&scene, &own, &s, minus3(a.d), a.hit, light, attenuation, i, capacity, shadows, &radiance,
-                        LIGHT_NAMES, bounce);
+    found = directLights(&scene, &own, &s, minus3(a.d), a.hit, &group, attenuation, i, capacity, shadows, flags,
+                         &radiance, LIGHT_NAMES, bounce);
     storeReal3(entryRadiance, capacity, 0, i, radiance);
   }
   if (flags) storeFlags((loadFlags(flags + i) & ~ENTRY_SHADOW) | found, flags + i);
 }
 #endif
+
+__kernel void add_light(const uint count, const uint capacity, const uint set, __global const uchar* flags,
+                        __global const float* shadows, __global float* entryRadiance) {
+  const uint i = (uint)get_global_id(0) * LANES;
+  if (i >= count) return;
+  const Mask lit = (loadFlags(flags + (size_t)set * capacity + i) & ENTRY_SHADOW) != 0;
+  if (!some(lit)) return;
+  const Real3 before = loadReal3(entryRadiance, capacity, 0, i);
+  const Real3 contribution = loadReal3(shadows, capacity, set * SHADOW_PLANES + SHADOW_CONTRIBUTION, i);
+  storeReal3(entryRadiance, capacity, 0, i, choose3(lit, add3(before, contribution), before));
+}

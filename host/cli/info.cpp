@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "analysis/light_groups.h"
 #include "cl/error.h"
 #include "cl/kernel_cache.h"
 #include "cli/aovs.h"
@@ -62,8 +63,10 @@ void runInfo(InfoOptions& o) {
   const PrunedScene pruned = plan ? std::move(plan->pruned) : pruneScene(scene, o.settings);
   const SceneFeatures features =
       plan ? plan->features : SceneFeatures::analyse(scene, pruned, o.settings, {});
-  const auto stages =
-      plan ? plan->stages : plannedStages({features, pruned.lights.size(), mostHits(features, o.settings)});
+  const auto lights = lightGroups(scene, pruned, features);
+  const auto stages = plan ? plan->stages
+                           : plannedStages({features, lights.size(), mostHits(features, o.settings),
+                                            hasLateLight(scene, pruned, lights)});
   const InfoReport report{scene, notices, features, pruned.pruning, stages, plan, problem, peak};
   if (o.json)
     tell(fmt::format("{}\n",

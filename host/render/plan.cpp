@@ -19,6 +19,7 @@ std::uint64_t bytesOfEverything(Compute& compute, const Scene& scene, const Sett
   everything.pruned = unprunedScene(scene);
   everything.features =
       SceneFeatures::analyse(scene, everything.pruned, all, {compute.device().suitsPackets()});
+  everything.lights = lightGroups(scene, everything.pruned, everything.features);
   SceneBuffers memory = allocateScene(compute, scene, settings, everything, tree);
   memory.queues.reserve(usualQueues(everything.features));
   std::vector<BufferStats> buffers;
@@ -47,7 +48,8 @@ RenderPlan planRender(const Scene& scene, const Settings& settings) {
   plan.everythingBytes = picture.order.bytes + picture.film.bytes + picture.aovs.bytes +
                          bytesOfEverything(compute, scene, settings, decisions, tree);
   plan.stages =
-      plannedStages({decisions.features, memory.scene.lightCount, mostHits(decisions.features, settings)});
+      plannedStages({decisions.features, decisions.lights.size(), mostHits(decisions.features, settings),
+                     hasLateLight(scene, decisions.pruned, decisions.lights)});
   plan.device = compute.device();
   plan.settings = settingsInEffect(settings, decisions, memory.queues);
   plan.features = std::move(decisions.features);

@@ -58,6 +58,7 @@ Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo&
   d.camera = findCamera(scene, settings.camera);
   d.pruned = pruneScene(scene, settings, texels);
   d.features = SceneFeatures::analyse(scene, d.pruned, settings, {device.suitsPackets()});
+  d.lights = lightGroups(scene, d.pruned, d.features);
   d.compactChunk = defaultCompactChunk(device);
   d.workGroup = settings.workGroup > 0 ? settings.workGroup : defaultWorkGroup(d.features);
   if (static_cast<std::uint64_t>(d.workGroup) > device.maxWorkGroup)
@@ -126,7 +127,8 @@ std::uint32_t queueCapacity(const Settings& s) {
 SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
                            const Decisions& decisions, TriTree tree, Scene* consumed) {
   return {uploadScene(compute, scene, decisions.pruned, std::move(tree), decisions.features, consumed),
-          RayQueues(compute, decisions.features, queueCapacity(settings), decisions.compactChunk)};
+          RayQueues(compute, decisions.features, mostWaiting(decisions.lights), queueCapacity(settings),
+                    decisions.compactChunk)};
 }
 
 void SceneBuffers::report(std::vector<BufferStats>& out) const {

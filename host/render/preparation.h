@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "analysis/light_groups.h"
 #include "analysis/scene_features.h"
 #include "bvh/tri_tree.h"
 #include "cl/program.h"
@@ -34,6 +35,7 @@ struct Decisions {
   std::size_t camera = 0;  ///< of Scene::cameras
   PrunedScene pruned;      ///< what goes to the device
   SceneFeatures features;
+  std::vector<LightGroup> lights;
   std::uint32_t compactChunk = 0;
   int workGroup = 0;
 };

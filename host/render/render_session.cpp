@@ -32,10 +32,11 @@ struct Compiled {
   double seconds = 0.0;
 };
 
-Compiled compileKernels(OpenDevice& device, const Settings& settings, const Decisions& decisions,
-                        const RenderHooks& hooks, Clock::time_point start) {
-  const auto stages = plannedStages(
-      {decisions.features, decisions.pruned.lights.size(), mostHits(decisions.features, settings)});
+Compiled compileKernels(OpenDevice& device, const Scene& scene, const Settings& settings,
+                        const Decisions& decisions, const RenderHooks& hooks, Clock::time_point start) {
+  const auto stages =
+      plannedStages({decisions.features, decisions.lights.size(), mostHits(decisions.features, settings),
+                     hasLateLight(scene, decisions.pruned, decisions.lights)});
   const CompileTarget target{decisions.compactChunk, decisions.workGroup, settings.relaxedArithmetic};
   CompileBeside beside;
   if (!hooks.compiler.empty())
@@ -88,7 +89,7 @@ struct RenderSession::State {
 
   struct QueueKey {
     std::uint64_t features = 0;
-    std::uint32_t capacity = 0, compactChunk = 0;
+    std::uint32_t waitingLights = 0, capacity = 0, compactChunk = 0;
     bool operator==(const QueueKey&) const = default;
   };
 
@@ -237,15 +238,16 @@ void RenderSession::State::provideScene(Compute& compute, const Scene& from, con
 
 void RenderSession::State::provideQueues(Compute& compute, const Settings& settings,
                                          const Decisions& decisions, bool isPreview, PhaseLog& log) {
-  QueueKey wanted{decisions.features.bits() & kQueueFeatures, queueCapacity(settings),
-                  decisions.compactChunk};
+  QueueKey wanted{decisions.features.bits() & kQueueFeatures, mostWaiting(decisions.lights),
+                  queueCapacity(settings), decisions.compactChunk};
   // A preview takes larger ones that are there, and leaves them to the render that follows.
   if (isPreview && queues.value) wanted.capacity = std::max(wanted.capacity, queues.key.capacity);
   work.queues = !queues.serves(wanted);
   if (work.queues)
     queues.remake(wanted, [&] {
       return log.time("allocate queues", [&] {
-        return RayQueues(compute, decisions.features, wanted.capacity, decisions.compactChunk);
+        return RayQueues(compute, decisions.features, wanted.waitingLights, wanted.capacity,
+                         decisions.compactChunk);
       });
     });
 }
@@ -267,8 +269,8 @@ RenderSession::State::Prepared RenderSession::State::prepare(const Scene& from, 
   say(hooks, "compiling kernels");
   const auto compiling = Clock::now();
   const std::uint64_t programsBefore = open.programs.total();
-  auto compiled = std::async(std::launch::async,
-                             [&] { return compileKernels(open, settings, decisions, hooks, compiling); });
+  auto compiled = std::async(
+      std::launch::async, [&] { return compileKernels(open, from, settings, decisions, hooks, compiling); });
   const auto allocating = Clock::now();
   providePicture(open.compute, settings, decisions, hooks.isPreview);
   const double pictureSeconds = PhaseLog::secondsSince(allocating);
@@ -288,6 +290,7 @@ WavefrontSetup setupOf(const Scene& scene, const DeviceScene& onDevice, const Se
   const Camera& camera = hooks.camera ? *hooks.camera : scene.cameras[decisions.camera];
   return {decisions.features,
           onDevice,
+          decisions.lights,
           cameraToDevice(camera, settings),
           constantsToDevice(scene, camera, settings),
           static_cast<std::uint32_t>(settings.bounces),

@@ -233,7 +233,6 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   }
   if (!d.tables.emitters.empty())
     d.emitters = compute.upload("emitters", emittersToDevice(d.tables.emitters, tree.order));
-  d.lightCount = static_cast<std::uint32_t>(d.tables.lights.size());
   d.lights = compute.upload("lights", d.tables.lights);
   if (features.has(Feature::BACKGROUND_MAP))
     d.backgroundMap = stays.backgroundMap ? std::move(stays.backgroundMap)
@@ -268,7 +267,6 @@ TableChanges takeOver(Compute& compute, const Scene& scene, DeviceTables tables,
     changeSurfaces(compute, scene, tables.surfaces, d.triangles);
     d.tables.surfaces = std::move(tables.surfaces);
   }
-  d.lightCount = static_cast<std::uint32_t>(d.tables.lights.size());
   return changes;
 }
 

@@ -19,7 +19,6 @@ struct DeviceScene {
   Buffer nodes, triangles, corners, indices32, normals, tangents, uv0, uv1, colors, materials, textures,
       texels, linearFromSrgb, lights, emitters, backgroundMap, sky, bvh8Nodes, leaves;
   std::uint32_t triangleCount = 0;  ///< not counting the degenerate sentinel at the end
-  std::uint32_t lightCount = 0;
   DeviceTables tables;  ///< what the buffers of the same names hold, `triangles` and `texels` the rest
 
   /// SCENE_PARAMS of kernels/lib/scene.cl.

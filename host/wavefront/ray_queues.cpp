@@ -33,10 +33,11 @@ std::uint32_t hitPlanesFor(const SceneFeatures& features) {
 
 }  // namespace
 
-RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity,
-                     std::uint32_t compactChunk)
-    : RayQueues(compute, Asked{SceneFeatures::ofBits(features.bits() & kQueueFeatures)}, capacity,
-                compactChunk) {}
+RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t waitingLights,
+                     std::uint32_t capacity, std::uint32_t compactChunk)
+    : RayQueues(compute,
+                Asked{SceneFeatures::ofBits(features.bits() & kQueueFeatures), std::max(waitingLights, 1U)},
+                capacity, compactChunk) {}
 
 RayQueues::RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacity, std::uint32_t compactChunk)
     : compute_(compute),
@@ -56,13 +57,14 @@ RayQueues::RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacit
   const bool impulseRays = asked.features.has(Feature::IMPULSES);
   hits = planes("hits", hitPlanes_);
   sampleRadiance = planes("sampleRadiance", radiancePlanes_);
-  if (shadowRays) shadows = planes("shadows", SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
+  const std::size_t sets = asked.waitingLights;
+  if (shadowRays) shadows = planes("shadows", sets * SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
   const std::size_t impulsesOfHit = asked.features.has(Feature::BOTH_BRANCHES) ? 2 : 1;
   if (impulseRays)
     impulses = planes("impulses", impulsesOfHit * impulsePlanes_),
     entryRadiance = planes("entryRadiance", radiancePlanes_);
   if (shadowRays || impulseRays) {
-    flags = compute.allocate("flags", std::size_t{capacity} + QUEUE_PADDING);
+    flags = compute.allocate("flags", (shadowRays ? sets : 1) * capacity + QUEUE_PADDING);
     // Of all kinds, even where nothing can end: the items of scan_chunks are rounded up to a work-group.
     const std::size_t chunks = capacity / compactChunk + 1;
     totals = compute.allocate("totals", SUMS * chunks * sizeof(std::uint32_t));

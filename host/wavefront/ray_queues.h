@@ -28,8 +28,9 @@ inline constexpr std::uint64_t kQueueFeatures =
 class RayQueues {
  public:
   /// Allocates what the features need for `capacity` entries; ray queues themselves come on demand.
-  RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t capacity,
-            std::uint32_t compactChunk);
+  /// waitingLights: lights whose shadow candidates are kept at once (mostWaiting).
+  RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t waitingLights,
+            std::uint32_t capacity, std::uint32_t compactChunk);
 
   std::uint32_t capacity() const { return capacity_; }
   /// Entries a segment may have: half the capacity where a hit can send out two impulses.
@@ -61,6 +62,7 @@ class RayQueues {
   /// Of kQueueFeatures alone.
   struct Asked {
     SceneFeatures features;
+    std::uint32_t waitingLights;
   };
   RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacity, std::uint32_t compactChunk);
   std::vector<std::uint32_t> readSlots(const Buffer& queue, std::uint32_t begin, std::uint32_t count) const;

@@ -83,38 +83,40 @@ void RayRecorder::readImpulses(std::uint32_t count, std::uint32_t bounce) {
     }
 }
 
-void RayRecorder::shaded(const ObservedSegment& s, std::uint32_t light) {
+void RayRecorder::shaded(const ObservedSegment& s, const LightTurn& turn) {
   const std::uint32_t count = s.segment.count();
-  if (light == 0) {
+  if (turn.isFirst) {
     readRays(s);
     readHits(count);
   }
   flags_.assign(count, 0);
-  if (queues_.flags) compute_.read(queues_.flags, 0, count, flags_.data());
+  if (queues_.flags)
+    compute_.read(queues_.flags, std::size_t{turn.set} * queues_.capacity(), count, flags_.data());
   const auto local = reader_.vectors(s.radiance, 0, 0, count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    // Light that needs no shadow ray comes with its own round.
-    of(i).local += light == 0 ? local[i] : local[i] - of(i).radiance;
+    // Light that needs no shadow ray comes with its own turn, or the first of its group.
+    of(i).local += turn.isFirst ? local[i] : local[i] - of(i).radiance;
     of(i).radiance = local[i];
   }
-  if (queues_.shadows) {
-    const auto origins = reader_.vectors(queues_.shadows, SHADOW_O, 0, count),
-               directions = reader_.vectors(queues_.shadows, SHADOW_D, 0, count),
-               contributions = reader_.vectors(queues_.shadows, SHADOW_CONTRIBUTION, 0, count);
-    const auto lengths = reader_.plane<float>(queues_.shadows, SHADOW_LENGTH, 0, count);
+  if (turn.hasRays) {
+    const std::uint32_t set = turn.set * SHADOW_PLANES;
+    const auto origins = reader_.vectors(queues_.shadows, set + SHADOW_O, 0, count),
+               directions = reader_.vectors(queues_.shadows, set + SHADOW_D, 0, count),
+               contributions = reader_.vectors(queues_.shadows, set + SHADOW_CONTRIBUTION, 0, count);
+    const auto lengths = reader_.plane<float>(queues_.shadows, set + SHADOW_LENGTH, 0, count);
     for (std::uint32_t i = 0; i < count; ++i)
       if (flags_[i] & ENTRY_SHADOW)
         of(i).shadows.push_back(
-            {light, origins[i], directions[i], metresOf(lengths[i]), contributions[i], {}});
+            {turn.light, origins[i], directions[i], metresOf(lengths[i]), contributions[i], {}});
   }
-  if (light == 0) readImpulses(count, s.bounce);
+  if (turn.isFirst) readImpulses(count, s.bounce);
 }
 
-void RayRecorder::lit(const ObservedSegment& s, std::uint32_t light) {
+void RayRecorder::lit(const ObservedSegment& s, const LightTurn& turn) {
   const auto after = reader_.vectors(s.radiance, 0, 0, s.segment.count());
   for (std::uint32_t i = 0; i < s.segment.count(); ++i) {
     RayRecord& ray = of(i);
-    if (!ray.shadows.empty() && ray.shadows.back().light == light)
+    if (!ray.shadows.empty() && ray.shadows.back().light == turn.light)
       ray.shadows.back().arrived = after[i] - ray.radiance;
     ray.radiance = after[i];
   }

@@ -18,8 +18,8 @@ class RayRecorder : public WavefrontObserver {
   RayRecorder(Compute& compute, const RayQueues& queues, const DeviceScene& scene,
               const SceneFeatures& features);
 
-  void shaded(const ObservedSegment& s, std::uint32_t light) override;
-  void lit(const ObservedSegment& s, std::uint32_t light) override;
+  void shaded(const ObservedSegment& s, const LightTurn& turn) override;
+  void lit(const ObservedSegment& s, const LightTurn& turn) override;
 
   /// Parents come before their children. Lights and materials are numbered as on the device.
   const std::vector<RayRecord>& rays() const { return rays_; }

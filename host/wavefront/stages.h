@@ -13,6 +13,7 @@
 // launches it. stages.cpp does not compile unless names and types of the arguments are the kernel's.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -30,8 +31,9 @@ using Bytes = std::uint64_t;
 /// What decides whether a stage is launched.
 struct StageConditions {
   const SceneFeatures& features;
-  std::size_t lights = 0;
+  std::size_t lightGroups = 1;
   int bounces = 1;
+  bool lateLight = false;  ///< hasLateLight
 
   bool shadows() const { return features.has(Feature::SHADOWS); }
   bool impulses() const { return features.has(Feature::IMPULSES); }
@@ -126,26 +128,27 @@ struct Intersect {
 
 struct Shade {
   static constexpr Stage stage{
-      {"shade", "surfels, emission, first light, impulses", "shade", "shading", "shade.cl", "rays", "hits"},
+      {"shade", "surfels, emission, first lights, impulses", "shade", "shading", "shade.cl", "rays", "hits"},
       PerWorkItem::Lanes,
       [](const StageConditions&) { return true; }};
   SceneArgument scene;
   device::RenderConstants constants{};
   device::Batch batch{};
-  Count first = 0, count = 0, capacity = 0, bounce = 0, lastBounce = 0, width = 0, pixels = 0;
+  Count first = 0, count = 0, capacity = 0, bounce = 0, lastBounce = 0, lightsEnd = 0, waiting = 0, width = 0,
+        pixels = 0;
   Global<const Count> pixelOrder;
   Global<const float> rays, hits;
   Global<float> entryRadiance, shadows, impulses;
   Global<std::uint8_t> flags;
   Global<float> aovs;
-  WHITTLE_ARGUMENTS(scene, constants, batch, first, count, capacity, bounce, lastBounce, width, pixels,
-                    pixelOrder, rays, hits, entryRadiance, shadows, impulses, flags, aovs)
+  WHITTLE_ARGUMENTS(scene, constants, batch, first, count, capacity, bounce, lastBounce, lightsEnd, waiting,
+                    width, pixels, pixelOrder, rays, hits, entryRadiance, shadows, impulses, flags, aovs)
 
   Count items() const { return count; }
-  /// Reads rays, hits and, after the first bounce, throughputs; writes radiance and flags.
+  /// Reads rays, hits and, after the first bounce, throughputs; writes radiance and flags of each set.
   Bytes bytes(const EntryBytes& e) const {
     const bool throughputs = bounce > 1 && bounce < lastBounce;
-    return count * (kRay + e.hit + e.radiance + (throughputs ? kRgb : 0) + kFlags);
+    return count * (kRay + e.hit + e.radiance + (throughputs ? kRgb : 0) + std::max(waiting, 1U) * kFlags);
   }
   /// Candidates come on top.
   static constexpr Bytes bytesOf(Bytes shadowRays, Bytes impulses, Bytes impulsePlanes) {
@@ -159,10 +162,11 @@ struct CompactCount {
       PerWorkItem::Chunk,
       [](const StageConditions& c) { return c.shadows() || c.impulses(); }};
   Count count = 0, capacity = 0;
+  Count set = 0;  ///< of shadow candidates; impulses come with the first
   Global<const std::uint8_t> flags;
   Global<const float> impulses;  ///< none: nothing can have ended
   Global<Count> totals;
-  WHITTLE_ARGUMENTS(count, capacity, flags, impulses, totals)
+  WHITTLE_ARGUMENTS(count, capacity, set, flags, impulses, totals)
 
   Count items() const { return count; }
   Bytes bytes(const EntryBytes&) const { return count * kFlags; }
@@ -174,10 +178,10 @@ struct ScanChunks {
       PerWorkItem::One,
       CompactCount::stage.runs};
   Count chunks = 0;
-  Global<Count> totals, sums;
-  WHITTLE_ARGUMENTS(chunks, totals, sums)
-  /// Shadow rays, impulses and, where something can have ended, ENDED_KINDS; no argument: a work item each.
+  /// Shadow rays, impulses and, where something can have ended, ENDED_KINDS: a work item each.
   Count kinds = SUM_ENDED;
+  Global<Count> totals, sums;
+  WHITTLE_ARGUMENTS(chunks, kinds, totals, sums)
 
   Count items() const { return chunks; }
   Count workItems() const { return kinds; }
@@ -190,11 +194,11 @@ struct CompactShadow {
       {"compact_shadow", "the shadow queue", "compact", "queues", "compact.cl", "entries", "shadow rays"},
       PerWorkItem::Chunk,
       [](const StageConditions& c) { return c.shadows(); }};
-  Count count = 0;
+  Count count = 0, capacity = 0, set = 0;
   Global<const std::uint8_t> flags;
   Global<const Count> offsets;
   Global<Count> shadowQueue;
-  WHITTLE_ARGUMENTS(count, flags, offsets, shadowQueue)
+  WHITTLE_ARGUMENTS(count, capacity, set, flags, offsets, shadowQueue)
 
   Count items() const { return count; }
   Bytes bytes(const EntryBytes&) const { return count * kFlags; }
@@ -208,11 +212,11 @@ struct Occlude {
       PerWorkItem::Packet,
       [](const StageConditions& c) { return c.shadows(); }};
   SceneArgument scene;
-  Count count = 0, capacity = 0;
+  Count count = 0, capacity = 0, set = 0;
   Global<const Count> shadowQueue;
   Global<const float> shadows;
   Global<float> entryRadiance;
-  WHITTLE_ARGUMENTS(scene, count, capacity, shadowQueue, shadows, entryRadiance)
+  WHITTLE_ARGUMENTS(scene, count, capacity, set, shadowQueue, shadows, entryRadiance)
 
   Count items() const { return count; }
   /// Reads index, ray, length and contribution; adds to the radiance, as though every light were reached.
@@ -221,23 +225,42 @@ struct Occlude {
 
 struct ShadeLight {
   static constexpr Stage stage{
-      {"shade_light", "one more light", "shade", "shading", "shade.cl", "rays", "shadow rays"},
+      {"shade_light", "further lights", "shade", "shading", "shade.cl", "rays", "shadow rays"},
       PerWorkItem::Lanes,
-      [](const StageConditions& c) { return c.lights > 1; }};
+      [](const StageConditions& c) { return c.lightGroups > 1; }};
   SceneArgument scene;
   device::RenderConstants constants{};
   device::Batch batch{};
-  Count first = 0, count = 0, capacity = 0, bounce = 0, light = 0, width = 0;
+  Count first = 0, count = 0, capacity = 0, bounce = 0, lightsFirst = 0, lightsEnd = 0, waiting = 0,
+        width = 0;
   Global<const Count> pixelOrder;
   Global<const float> rays, hits;
   Global<float> entryRadiance, shadows;
   Global<std::uint8_t> flags;
-  WHITTLE_ARGUMENTS(scene, constants, batch, first, count, capacity, bounce, light, width, pixelOrder, rays,
-                    hits, entryRadiance, shadows, flags)
+  WHITTLE_ARGUMENTS(scene, constants, batch, first, count, capacity, bounce, lightsFirst, lightsEnd, waiting,
+                    width, pixelOrder, rays, hits, entryRadiance, shadows, flags)
 
   Count items() const { return count; }
   /// Reads rays, hits, radiance and flags; writes the last two. Candidates come on top (Shade::bytesOf).
-  Bytes bytes(const EntryBytes& e) const { return count * (kRay + e.hit + 2 * kRgb + 2 * kFlags); }
+  Bytes bytes(const EntryBytes& e) const {
+    return count * (kRay + e.hit + 2 * kRgb + (1 + std::max(waiting, 1U)) * kFlags);
+  }
+};
+
+struct AddLight {
+  static constexpr Stage stage{
+      {"add_light", "light without shadows, in its turn", "shade", "shading", "shade.cl", "entries", "hits"},
+      PerWorkItem::Lanes,
+      [](const StageConditions& c) { return c.lateLight; }};
+  Count count = 0, capacity = 0, set = 0;
+  Global<const std::uint8_t> flags;
+  Global<const float> shadows;
+  Global<float> entryRadiance;
+  WHITTLE_ARGUMENTS(count, capacity, set, flags, shadows, entryRadiance)
+
+  Count items() const { return count; }
+  /// Reads flags and contribution, adds to the radiance, as though every entry had some.
+  Bytes bytes(const EntryBytes&) const { return count * (kFlags + 3 * kRgb); }
 };
 
 struct CompactImpulse {
@@ -313,9 +336,10 @@ struct Film {
 }  // namespace stages
 
 /// In the order of their first launches.
-using Stages = std::tuple<stages::Raygen, stages::Intersect, stages::Shade, stages::CompactCount,
-                          stages::ScanChunks, stages::CompactShadow, stages::Occlude, stages::ShadeLight,
-                          stages::CompactImpulse, stages::Accumulate, stages::FindLongRuns, stages::Film>;
+using Stages =
+    std::tuple<stages::Raygen, stages::Intersect, stages::Shade, stages::CompactCount, stages::ScanChunks,
+               stages::CompactShadow, stages::Occlude, stages::AddLight, stages::ShadeLight,
+               stages::CompactImpulse, stages::Accumulate, stages::FindLongRuns, stages::Film>;
 
 /// Calls `f` with a value of each stage's struct, all of whose arguments are null or zero: launched like
 /// this a stage does nothing.

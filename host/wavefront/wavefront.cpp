@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <type_traits>
 #include <utility>
 
 namespace whittle {
@@ -96,21 +97,12 @@ std::uint32_t Wavefront::traceSegment(const Buffer& queue, Segment segment, std:
   radiance_ = bounce == 1 ? &queues_.sampleRadiance : &queues_.entryRadiance;
   intersect(queue, segment, bounce);
   shade(queue, segment, bounce);
-  const Candidates found = countCandidates(segment, mayEnd(bounce));
-  stages_.addBytes<stages::Shade>(
-      stages::Shade::bytesOf(found.shadow, found.impulse, queues_.impulsePlanes()));
-  for (std::size_t kind = 0; kind < found.ended.size(); ++kind) tally_.ended[kind] += found.ended[kind];
   const ObservedSegment observed{queue, segment, bounce, *radiance_, *pixelOrder_, batch_};
-  if (observer_) observer_->shaded(observed, 0);
-  occlude(compactShadow(segment, found.shadow));
-  if (observer_) observer_->lit(observed, 0);
-  for (std::uint32_t light = 1; light < setup_.scene.lightCount; ++light) {
-    shadeLight(queue, segment, bounce, light);
-    const Candidates lit = countCandidates(segment, false);
-    stages_.addBytes<stages::ShadeLight>(stages::Shade::bytesOf(lit.shadow, 0, 0));
-    if (observer_) observer_->shaded(observed, light);
-    occlude(compactShadow(segment, lit.shadow));
-    if (observer_) observer_->lit(observed, light);
+  const Candidates found = takeTurns<stages::Shade>(observed, setup_.lights.front());
+  for (std::size_t kind = 0; kind < found.ended.size(); ++kind) tally_.ended[kind] += found.ended[kind];
+  for (std::size_t group = 1; group < setup_.lights.size(); ++group) {
+    shadeLight(queue, segment, bounce, setup_.lights[group]);
+    takeTurns<stages::ShadeLight>(observed, setup_.lights[group]);
   }
   if (observer_) observer_->finished(observed);
   if (bounce > 1) accumulate(queue, segment);
@@ -148,6 +140,8 @@ void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce
                             .capacity = queues_.capacity(),
                             .bounce = bounce,
                             .lastBounce = setup_.bounces,
+                            .lightsEnd = setup_.lights.front().end,
+                            .waiting = setup_.lights.front().waiting,
                             .width = setup_.camera.width,
                             .pixels = setup_.pixels,
                             .pixelOrder = *pixelOrder_,
@@ -161,7 +155,8 @@ void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce
   tally_.finished += segment.count();
 }
 
-void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t bounce, std::uint32_t light) {
+void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t bounce,
+                           const LightGroup& lights) {
   stages_.run(stages::ShadeLight{.scene = setup_.scene,
                                  .constants = setup_.constants,
                                  .batch = batch_,
@@ -169,7 +164,9 @@ void Wavefront::shadeLight(const Buffer& queue, Segment segment, std::uint32_t b
                                  .count = segment.count(),
                                  .capacity = queues_.capacity(),
                                  .bounce = bounce,
-                                 .light = light,
+                                 .lightsFirst = lights.first,
+                                 .lightsEnd = lights.end,
+                                 .waiting = lights.waiting,
                                  .width = setup_.camera.width,
                                  .pixelOrder = *pixelOrder_,
                                  .rays = queue,
@@ -185,19 +182,47 @@ bool Wavefront::mayEnd(std::uint32_t bounce) const {
   return setup_.features.has(Feature::STRAIGHT) && bounce > setup_.constants.transparentBounces;
 }
 
-Wavefront::Candidates Wavefront::countCandidates(Segment segment, bool mayEnd) {
+LightTurn Wavefront::turnOf(const LightGroup& lights, std::uint32_t i) const {
+  if (lights.waiting == 0) return {.light = lights.first};
+  const std::uint32_t light = lights.end - lights.waiting + i;
+  return {.hasRays = setup_.scene.tables.lights[light].castsShadows != 0, .light = light, .set = i};
+}
+
+template <typename S>
+Wavefront::Candidates Wavefront::takeTurns(const ObservedSegment& observed, const LightGroup& lights) {
+  const Segment segment = observed.segment;
+  Candidates first;
+  for (std::uint32_t i = 0; i < std::max(lights.waiting, 1U); ++i) {
+    LightTurn turn = turnOf(lights, i);
+    turn.isFirst = std::is_same_v<S, stages::Shade> && i == 0;
+    Candidates found;
+    if (turn.hasRays || turn.isFirst)
+      found = countCandidates(segment, turn.isFirst && mayEnd(observed.bounce), i);
+    else if (lights.waiting > 0)
+      addLight(segment, i);
+    if (i == 0) first = found;
+    const std::uint32_t impulses = turn.isFirst ? found.impulse : 0;
+    stages_.addBytes<S>(stages::Shade::bytesOf(found.shadow, impulses, queues_.impulsePlanes()));
+    if (observer_) observer_->shaded(observed, turn);
+    occlude(compactShadow(segment, found.shadow, i), i);
+    if (observer_) observer_->lit(observed, turn);
+  }
+  return first;
+}
+
+Wavefront::Candidates Wavefront::countCandidates(Segment segment, bool mayEnd, std::uint32_t set) {
   if (!queues_.flags) return {};
   const Buffer none;
+  // What the first set has of impulses stands until they are compacted.
+  const std::uint32_t kinds = set > 0 ? SUM_IMPULSE : (mayEnd ? SUM_ENDED + ENDED_KINDS : SUM_ENDED);
   stages_.run(stages::CompactCount{.count = segment.count(),
                                    .capacity = queues_.capacity(),
+                                   .set = set,
                                    .flags = queues_.flags,
                                    .impulses = mayEnd ? queues_.impulses : none,
                                    .totals = queues_.totals});
   stages_.run(stages::ScanChunks{
-      .chunks = chunksOf(segment),
-      .totals = queues_.totals,
-      .sums = queues_.sums,
-      .kinds = mayEnd ? std::uint32_t{SUM_ENDED + ENDED_KINDS} : std::uint32_t{SUM_ENDED}});
+      .chunks = chunksOf(segment), .kinds = kinds, .totals = queues_.totals, .sums = queues_.sums});
   std::array<std::uint32_t, SUMS> sums{};
   const auto work = stages_.hostWork("wait for counts");
   compute_.read(queues_.sums, 0, queues_.sums.bytes, sums.data());
@@ -207,9 +232,11 @@ Wavefront::Candidates Wavefront::countCandidates(Segment segment, bool mayEnd) {
   return found;
 }
 
-std::uint32_t Wavefront::compactShadow(Segment segment, std::uint32_t found) {
+std::uint32_t Wavefront::compactShadow(Segment segment, std::uint32_t found, std::uint32_t set) {
   if (found == 0) return 0;
   stages_.run(stages::CompactShadow{.count = segment.count(),
+                                    .capacity = queues_.capacity(),
+                                    .set = set,
                                     .flags = queues_.flags,
                                     .offsets = queues_.totals,
                                     .shadowQueue = queues_.shadowQueue},
@@ -218,13 +245,23 @@ std::uint32_t Wavefront::compactShadow(Segment segment, std::uint32_t found) {
   return found;
 }
 
-void Wavefront::occlude(std::uint32_t count) {
+void Wavefront::occlude(std::uint32_t count, std::uint32_t set) {
   stages_.run(stages::Occlude{.scene = setup_.scene,
                               .count = count,
                               .capacity = queues_.capacity(),
+                              .set = set,
                               .shadowQueue = queues_.shadowQueue,
                               .shadows = queues_.shadows,
                               .entryRadiance = *radiance_});
+}
+
+void Wavefront::addLight(Segment segment, std::uint32_t set) {
+  stages_.run(stages::AddLight{.count = segment.count(),
+                               .capacity = queues_.capacity(),
+                               .set = set,
+                               .flags = queues_.flags,
+                               .shadows = queues_.shadows,
+                               .entryRadiance = *radiance_});
 }
 
 std::uint32_t Wavefront::compactImpulse(const Buffer& queue, Segment segment, std::uint32_t bounce,
@@ -273,7 +310,7 @@ std::uint32_t Wavefront::chunksOf(Segment segment) const {
 }
 
 bool Wavefront::mayHaveLongRuns(std::uint32_t count, std::uint32_t bounce) const {
-  return count > LONG_RUN && StageConditions{setup_.features, 0, static_cast<int>(bounce)}.longRuns();
+  return count > LONG_RUN && StageConditions{setup_.features, 1, static_cast<int>(bounce)}.longRuns();
 }
 
 bool Wavefront::hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint32_t bounce) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "analysis/light_groups.h"
 #include "analysis/radiance_bound.h"
 #include "analysis/scene_features.h"
 #include "cl/program.h"
@@ -28,6 +29,7 @@ struct RayTally {
 struct WavefrontSetup {
   const SceneFeatures& features;
   const DeviceScene& scene;
+  const std::vector<LightGroup>& lights;
   device::DeviceCamera camera;
   device::RenderConstants constants;
   std::uint32_t bounces;
@@ -84,17 +86,24 @@ class Wavefront {
   void raygen(const Buffer& queue, std::uint32_t count);
   void intersect(const Buffer& queue, Segment segment, std::uint32_t bounce);
   void shade(const Buffer& queue, Segment segment, std::uint32_t bounce);
-  void shadeLight(const Buffer& queue, Segment segment, std::uint32_t bounce, std::uint32_t light);
+  void shadeLight(const Buffer& queue, Segment segment, std::uint32_t bounce, const LightGroup& lights);
   /// What shading asked for in a segment.
   struct Candidates {
     std::uint32_t shadow = 0, impulse = 0;
     EndedUnits ended{};
   };
-  Candidates countCandidates(Segment segment, bool mayEnd);
+  /// Of a set of shadow candidates; impulses come with the first one.
+  Candidates countCandidates(Segment segment, bool mayEnd, std::uint32_t set);
   /// Whether an impulse of this bounce's hits may not be followed though it carries something.
   bool mayEnd(std::uint32_t bounce) const;
-  std::uint32_t compactShadow(Segment segment, std::uint32_t found);
-  void occlude(std::uint32_t count);
+  /// The turns of a group's lights, shaded by stage S; returns what came with the first one.
+  template <typename S>
+  Candidates takeTurns(const ObservedSegment& segment, const LightGroup& lights);
+  /// Of light i of a group that waits.
+  LightTurn turnOf(const LightGroup& lights, std::uint32_t i) const;
+  std::uint32_t compactShadow(Segment segment, std::uint32_t found, std::uint32_t set);
+  void occlude(std::uint32_t count, std::uint32_t set);
+  void addLight(Segment segment, std::uint32_t set);
   std::uint32_t compactImpulse(const Buffer& queue, Segment segment, std::uint32_t bounce,
                                std::uint32_t found, Buffer& next);
   void accumulate(const Buffer& queue, Segment segment);

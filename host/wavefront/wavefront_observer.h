@@ -22,14 +22,21 @@ struct ObservedSegment {
   device::Batch batch;
 };
 
+/// The turn of a light in a segment.
+struct LightTurn {
+  bool isFirst = false;     ///< all the rest is found, too
+  bool hasRays = false;     ///< shadow candidates; what it brings without any is in the radiance
+  std::uint32_t light = 0;  ///< of the device's
+  std::uint32_t set = 0;    ///< of the queues' candidates and flags
+};
+
 class WavefrontObserver {
  public:
   virtual ~WavefrontObserver() = default;
-  /// Shading has found the candidates of a light round (0: with everything else); their shadow rays are not
-  /// traced yet.
-  virtual void shaded(const ObservedSegment&, std::uint32_t /*light*/) {}
+  /// Shading has found the candidates of a light; their shadow rays are not traced yet.
+  virtual void shaded(const ObservedSegment&, const LightTurn&) {}
   /// They are.
-  virtual void lit(const ObservedSegment&, std::uint32_t /*light*/) {}
+  virtual void lit(const ObservedSegment&, const LightTurn&) {}
   /// All lights have had their round: hits and radiance stand. Throughputs do not hold the segment's own
   /// hits.
   virtual void finished(const ObservedSegment&) {}

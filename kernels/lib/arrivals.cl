@@ -91,9 +91,10 @@ INLINE void loadCones(const RenderConstants* constants, const Batch* batch, __gl
     return;
   }
   // The entries are the samples.
-  float samples[LANES];
-  for (uint k = 0; k < LANES; ++k) samples[k] = (float)(batch->firstSample + (entry + k) % batch->samples + 1u);
-  const Real share = 1.0f / sqrt(LOAD(samples));
+  const Natural from = (Natural)(entry % batch->samples) + LANE_NUMBERS;
+  // One division for all lanes; the quotient is exact, as a batch has at most 2^22 samples of a pixel.
+  const Natural pixels = AS_NATURAL(TO_WHOLE((TO_REAL(from) + 0.5f) / (float)batch->samples));
+  const Real share = 1.0f / sqrt(TO_REAL(batch->firstSample + from - pixels * batch->samples + 1u));
   const Real along = dot3(a->d, real3(constants->forward[0], constants->forward[1], constants->forward[2]));
   const Real cosine = along > 0.0f ? along : (Real)(0.0f);
   a->cone.width = share * constants->coneWidth;

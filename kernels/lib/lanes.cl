@@ -31,6 +31,10 @@ typedef uint8 Natural;
 INLINE Real gather(__global const float* p, Natural at) {
   return (float8)(p[at.s0], p[at.s1], p[at.s2], p[at.s3], p[at.s4], p[at.s5], p[at.s6], p[at.s7]);
 }
+/// Of places below 2^31: with signed indices processors that gather take all lanes at once.
+INLINE Real gatherNear(__global const float* p, Mask at) {
+  return (float8)(p[at.s0], p[at.s1], p[at.s2], p[at.s3], p[at.s4], p[at.s5], p[at.s6], p[at.s7]);
+}
 INLINE int some(Mask mask) { return anyOf8(mask); }
 #else
 typedef float Real;
@@ -46,6 +50,7 @@ typedef uint Natural;
 #define LANE_NUMBERS 0u
 #define FIRST(x) (x)
 INLINE Real gather(__global const float* p, Natural at) { return p[at]; }
+INLINE Real gatherNear(__global const float* p, Mask at) { return p[at]; }
 INLINE int some(Mask mask) { return mask != 0; }
 #endif
 

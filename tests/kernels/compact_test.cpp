@@ -44,12 +44,28 @@ class Compaction {
   /// Indices of the entries with a shadow ray; the whole buffer, so that writes beyond the end show.
   std::vector<std::uint32_t> shadow(const std::vector<std::uint32_t>& flags, std::uint32_t count) {
     const Buffer f = upload(flags);
-    const Buffer queue =
-        bench.compute.upload("shadowQueue", std::vector<std::uint32_t>(kCapacity, kUntouched));
     scan(f, count, 0);
+    return shadowsOf(f, count, 0);
+  }
+
+  /// The same of set 1, whose flags come behind those of set 0, with the sums of that on the device; and the
+  /// places of the impulses' chunks after it.
+  std::vector<std::uint32_t> secondShadow(const std::vector<std::uint32_t>& first,
+                                          const std::vector<std::uint32_t>& second, std::uint32_t count) {
+    std::vector<std::uint32_t> flags = first;
+    flags.resize(kCapacity, 0);
+    flags.insert(flags.end(), second.begin(), second.end());
+    const Buffer f = upload(flags);
+    scan(f, count, 1);
+    const auto before = bench.read<std::uint32_t>(totals_, 2 * std::size_t{chunks(count)});
+    bench.stages.run(stages::CompactCount{
+        .count = count, .capacity = kCapacity, .set = 1, .flags = f, .impulses = {}, .totals = totals_});
     bench.stages.run(
-        stages::CompactShadow{.count = count, .flags = f, .offsets = totals_, .shadowQueue = queue});
-    return bench.read<std::uint32_t>(queue, kCapacity);
+        stages::ScanChunks{.chunks = chunks(count), .kinds = SUM_IMPULSE, .totals = totals_, .sums = sums_});
+    const auto after = bench.read<std::uint32_t>(totals_, 2 * std::size_t{chunks(count)});
+    for (std::size_t i = chunks(count); i < after.size(); ++i) EXPECT_EQ(after[i], before[i]) << i;
+    found = bench.read<std::uint32_t>(sums_, 1)[0];
+    return shadowsOf(f, count, 1);
   }
 
   /// The next ray queue, bits of all its planes, room for two impulses of each entry.
@@ -90,6 +106,17 @@ class Compaction {
   test::KernelBench bench;
 
  private:
+  std::vector<std::uint32_t> shadowsOf(const Buffer& flags, std::uint32_t count, std::uint32_t set) {
+    const Buffer queue =
+        bench.compute.upload("shadowQueue", std::vector<std::uint32_t>(kCapacity, kUntouched));
+    bench.stages.run(stages::CompactShadow{.count = count,
+                                           .capacity = kCapacity,
+                                           .set = set,
+                                           .flags = flags,
+                                           .offsets = totals_,
+                                           .shadowQueue = queue});
+    return bench.read<std::uint32_t>(queue, kCapacity);
+  }
   Buffer upload(const std::vector<std::uint32_t>& flags) {
     return bench.compute.upload("flags", std::vector<std::uint8_t>(flags.begin(), flags.end()));
   }
@@ -99,9 +126,9 @@ class Compaction {
         .count = count, .capacity = kCapacity, .flags = flags, .impulses = impulses, .totals = totals_});
     bench.stages.run(stages::ScanChunks{
         .chunks = chunks(count),
+        .kinds = impulses ? std::uint32_t{SUM_ENDED + ENDED_KINDS} : std::uint32_t{SUM_ENDED},
         .totals = totals_,
-        .sums = sums_,
-        .kinds = impulses ? std::uint32_t{SUM_ENDED + ENDED_KINDS} : std::uint32_t{SUM_ENDED}});
+        .sums = sums_});
   }
   /// kind: 0 shadow rays, 1 impulses.
   void scan(const Buffer& flags, std::uint32_t count, std::size_t kind) {
@@ -182,6 +209,22 @@ TEST(Compact, KeepsWhatIsWantedInOrder) {
   for (const std::uint32_t chunk : {1U, 7U, 32U, 1024U}) {
     Compaction compaction(chunk);
     checkChunk(compaction, chunk);
+  }
+}
+
+/// The candidates of a second light are its own, and what the first set has of impulses stands.
+TEST(Compact, SecondSetOfCandidates) {
+  constexpr std::uint32_t kCount = 2049;
+  Compaction compaction(1024);
+  for (const Pattern pattern : {Pattern::None, Pattern::All, Pattern::OnlyLast}) {
+    const auto second = makeFlags(pattern, kCount);
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < kCount; ++i)
+      if (second[i] & ENTRY_SHADOW) expected.push_back(i);
+    const std::size_t wanted = expected.size();
+    expected.resize(kCapacity, kUntouched);
+    EXPECT_EQ(compaction.secondShadow(makeFlags(Pattern::Random, kCount), second, kCount), expected);
+    EXPECT_EQ(compaction.found, wanted);
   }
 }
 

@@ -128,7 +128,7 @@ TEST(PrunedPictures, LightsThatReachNothing) {
   const Stats stats = expectSameBits(scene);
   EXPECT_EQ(stats.pruning.droppedLights.size(), 3U);
   EXPECT_EQ(bytesOf(stats, "lights"), 3U * 64);
-  EXPECT_EQ(stageOf(stats, "shade_light").launches, 2 * stageOf(stats, "shade").launches);
+  EXPECT_EQ(stageOf(stats, "add_light").launches, stageOf(stats, "shade").launches);
 }
 
 /// A light whose range, or cone, ends just where the nearest surface begins lights nothing, kept or not.

@@ -16,11 +16,11 @@ std::uint64_t queueBytes(const Stats& stats) {
 }
 
 /// A ray queue for each bounce, and the work space of one segment: planes of `capacity` entries, each padded,
-/// four bytes; of flags, one.
-std::uint64_t documentedBound(std::uint64_t capacity, std::uint64_t bounces) {
-  const std::uint64_t workPlanes = HIT_PLANES + 3 + 3 + SHADOW_PLANES + 1 + 2 * IMPULSE_PLANES;
+/// four bytes; of flags, one; candidates and flags for each of `lights` at once.
+std::uint64_t documentedBound(std::uint64_t capacity, std::uint64_t bounces, std::uint64_t lights) {
+  const std::uint64_t workPlanes = HIT_PLANES + 3 + 3 + lights * SHADOW_PLANES + 1 + 2 * IMPULSE_PLANES;
   const std::uint64_t totals = capacity + 3;
-  return (4 * (bounces * RAY_PLANES + workPlanes) + 1) * (capacity + QUEUE_PADDING) + 4 * totals;
+  return (4 * (bounces * RAY_PLANES + workPlanes) + lights) * (capacity + QUEUE_PADDING) + 4 * totals;
 }
 
 /// The items of scan_chunks are rounded up to a work-group, and those up to SUMS write, whatever is traced.
@@ -54,7 +54,7 @@ TEST(BoundedMemory, NestedGlassSixteenDeep) {
     EXPECT_EQ(small.stats.dropped, 0U);
     EXPECT_EQ(small.stats.rays.total(), large.stats.rays.total());
     EXPECT_EQ(differingPixels(small.radiance, large.radiance), 0U) << wavefront;
-    EXPECT_LE(queueBytes(small.stats), documentedBound(capacity, 16)) << wavefront;
+    EXPECT_LE(queueBytes(small.stats), documentedBound(capacity, 16, scene.lights.size())) << wavefront;
     EXPECT_GT(stageOf(small.stats, "intersect").launches, stageOf(large.stats, "intersect").launches);
   }
   EXPECT_GT(large.stats.rays.impulse, 10U * 64 * 36) << "or there is nothing to cut";
@@ -97,7 +97,7 @@ TEST(BoundedMemory, LongRunsAreSlicedAlike) {
     EXPECT_EQ(differingPixels(other.radiance, three.radiance), 0U) << wavefront;
     EXPECT_EQ(other.stats.dropped, 0U);
     EXPECT_LE(queueBytes(other.stats),
-              documentedBound(static_cast<std::uint64_t>(other.stats.settings.wavefront), 13))
+              documentedBound(static_cast<std::uint64_t>(other.stats.settings.wavefront), 13, 1))
         << wavefront;
   }
 }

@@ -1,5 +1,6 @@
 // Bytes that stages move, (wavefront/stages.h) against counts made by hand from what the kernels
 // read and write.
+#include "analysis/light_groups.h"
 #include "support/pictures.h"
 
 namespace whittle::test {
@@ -15,15 +16,25 @@ TEST(StageBytes, OfAMatteSceneIsWhatItsKernelsTouch) {
   ASSERT_GT(shadow, 0U);
   EXPECT_EQ(stageOf(stats, "raygen").bytes, rays * 24 + pixels * 4);
   EXPECT_EQ(stageOf(stats, "intersect").bytes, rays * (24 + 12));
-  // Each light's candidates are 10 floats, written once by shade or shade_light.
+  // Each light's candidates are 10 floats, and a byte of flags; all of these lights are of one group.
   const std::uint64_t lights = ownScene("shadow").lights.size();
-  EXPECT_EQ(stageOf(stats, "shade").bytes + stageOf(stats, "shade_light").bytes,
-            rays * (24 + 12 + 12 + 1) + (lights - 1) * rays * (24 + 12 + 24 + 2) + shadow * 40);
+  ASSERT_LE(lights, kLightsWaiting);
+  EXPECT_EQ(stageOf(stats, "shade").bytes, rays * (24 + 12 + 12 + lights) + shadow * 40);
   EXPECT_EQ(stageOf(stats, "occlude").bytes, shadow * (4 + 40 + 24));
   EXPECT_EQ(stageOf(stats, "compact_shadow").bytes, lights * rays + shadow * 4);
   EXPECT_EQ(stageOf(stats, "compact_count").bytes, lights * rays);
   // The first look at the film writes its 8 planes and reads the samples.
   EXPECT_EQ(stageOf(stats, "film").bytes, rays * 12 + pixels * 8 * 4);
+}
+
+/// A further group reads rays, hits, radiance and flags again.
+TEST(StageBytes, OfASecondGroupOfLights) {
+  Scene scene = ownScene("shadow");
+  scene.lights.resize(kLightsWaiting + 1, scene.lights.front());
+  const Stats stats = renderOnDevice(scene, smallSettings(1)).stats;
+  const std::uint64_t rays = stats.rays.primary;
+  EXPECT_EQ(stageOf(stats, "shade").bytes + stageOf(stats, "shade_light").bytes,
+            rays * (24 + 12 + 12 + kLightsWaiting) + rays * (24 + 12 + 24 + 2) + stats.rays.shadow * 40);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ typedef struct {
 
 /// Reduces u + low to [0, 1] by its wrap mode; to within the size of low.
 INLINE Real wrapCoordinate(Real u, Real low, Natural mode) {
+  if (!some(mode != WRAP_REPEAT)) return (u - floor(u)) + low;
   const Real one = (Real)(1.0f), zero = (Real)(0.0f);
   const Real clamped = u > 0.0f ? (u < 1.0f ? u + low : one) : zero;
   const Real m = (u - 2.0f * floor(u * 0.5f)) + low;
@@ -66,26 +67,61 @@ typedef struct {
   Natural wrapS, wrapT;
 } Level;
 
-INLINE Rgba fetchTexel(const SceneView* scene, const Records* texture, const Level* level, Mask x, Mask y, int srgb) {
-  const Natural first = level->first, width = AS_NATURAL(level->width);
+/// A texel as it is stored: RGBA of 8 bits, or with DEEP_TEXTURES RG and then BA.
+typedef struct {
+  Natural word;
 #if HAS(DEEP_TEXTURES)
-  const Mask deep = (FIELD_BITS(texture, DeviceTexture, flags) & TEXTURE_DEEP) != 0;
-  const Natural texel = AS_NATURAL(y) * width + AS_NATURAL(x), at = first + (deep ? texel * 2u : texel);
-#else
-  const Natural at = first + AS_NATURAL(y) * width + AS_NATURAL(x);
+  Natural second;
 #endif
-  const Natural word = gatherWords(scene->texels, at);
-  Rgba t;
-  for (uint n = 0; n < 4; ++n) {
-    const Natural byte = (word >> (8 * n)) & 255u;
-    t.c[n] = srgb && n < 3 ? gather(scene->linearFromSrgb, byte) : TO_REAL(byte) / 255.0f;
-    // A division may be off by an ulp: opaque is opaque.
-    if (n == 3) t.c[n] = byte == 255u ? (Real)(1.0f) : t.c[n];
-  }
+} Texel;
+
+/// Loads alone: decoding in between would keep those of further texels waiting for the first one's memory.
+INLINE Texel loadTexel(const SceneView* scene, const Level* level, Mask deep, Mask x, Mask y, int srgb) {
+  const Natural texel = AS_NATURAL(y) * AS_NATURAL(level->width) + AS_NATURAL(x);
+  Texel t;
 #if HAS(DEEP_TEXTURES)
-  if (!srgb && some(deep)) t = chooseDeep(deep, word, gatherWords(scene->texels, deep ? at + 1u : at), t);
+  const Natural at = level->first + (deep ? texel * 2u : texel);
+  t.word = t.second = gatherWords(scene->texels, at);
+  if (!srgb && some(deep)) t.second = gatherWords(scene->texels, deep ? at + 1u : at);
+#else
+  t.word = gatherWords(scene->texels, level->first + texel);
 #endif
   return t;
+}
+
+/// Decoded, in [0, 1].
+INLINE Rgba colorOf(const SceneView* scene, Mask deep, Texel texel, int srgb) {
+  const Natural word = texel.word, alpha = word >> 24;
+  const Mask r = TO_SIGNED(word & 255u), g = TO_SIGNED((word >> 8) & 255u), b = TO_SIGNED((word >> 16) & 255u);
+  Rgba t;
+  if (srgb) {
+    t.c[0] = gatherNear(scene->linearFromSrgb, r);
+    t.c[1] = gatherNear(scene->linearFromSrgb, g);
+    t.c[2] = gatherNear(scene->linearFromSrgb, b);
+  } else {
+    t.c[0] = TO_REAL(r) / 255.0f;
+    t.c[1] = TO_REAL(g) / 255.0f;
+    t.c[2] = TO_REAL(b) / 255.0f;
+  }
+  // A division may be off by an ulp: opaque is opaque.
+  t.c[3] = alpha == 255u ? (Real)(1.0f) : TO_REAL(alpha) / 255.0f;
+#if HAS(DEEP_TEXTURES)
+  if (!srgb && some(deep)) t = chooseDeep(deep, word, texel.second, t);
+#endif
+  return t;
+}
+
+INLINE Mask isDeep(const Records* texture) {
+#if HAS(DEEP_TEXTURES)
+  return (FIELD_BITS(texture, DeviceTexture, flags) & TEXTURE_DEEP) != 0;
+#else
+  return (Mask)(0);
+#endif
+}
+
+INLINE Rgba fetchTexel(const SceneView* scene, const Records* texture, const Level* level, Mask x, Mask y, int srgb) {
+  const Mask deep = isDeep(texture);
+  return colorOf(scene, deep, loadTexel(scene, level, deep, x, y, srgb), srgb);
 }
 
 INLINE Rgba chooseRgba(Mask m, Rgba a, Rgba b) {
@@ -93,26 +129,44 @@ INLINE Rgba chooseRgba(Mask m, Rgba a, Rgba b) {
   return a;
 }
 
-/// The four texels around (s, t), in [0, 1].
-INLINE Rgba blendTexels(const SceneView* scene, const Records* texture, const Level* level, Real s, Real t, int srgb) {
+/// The four texels around a place, and how far from the first of them to the others.
+typedef struct {
+  Texel t00, t10, t01, t11;
+  Real wx, wy;
+} Quad;
+
+/// Around (s, t), in [0, 1].
+INLINE Quad loadQuad(const SceneView* scene, const Level* level, Mask deep, Real s, Real t, int srgb) {
   const Real x = s * TO_REAL(level->width) - 0.5f, y = t * TO_REAL(level->height) - 0.5f;
   const Real fx = floor(x), fy = floor(y);
-  const Real wx = x - fx, wy = y - fy;
   const Mask x0 = wrapTexel(TO_WHOLE(fx), level->width, level->wrapS),
              x1 = wrapTexel(TO_WHOLE(fx) + 1, level->width, level->wrapS);
   const Mask y0 = wrapTexel(TO_WHOLE(fy), level->height, level->wrapT),
              y1 = wrapTexel(TO_WHOLE(fy) + 1, level->height, level->wrapT);
-  const Rgba t00 = fetchTexel(scene, texture, level, x0, y0, srgb),
-             t10 = fetchTexel(scene, texture, level, x1, y0, srgb);
-  const Rgba t01 = fetchTexel(scene, texture, level, x0, y1, srgb),
-             t11 = fetchTexel(scene, texture, level, x1, y1, srgb);
+  Quad q;
+  q.wx = x - fx, q.wy = y - fy;
+  q.t00 = loadTexel(scene, level, deep, x0, y0, srgb), q.t10 = loadTexel(scene, level, deep, x1, y0, srgb);
+  q.t01 = loadTexel(scene, level, deep, x0, y1, srgb), q.t11 = loadTexel(scene, level, deep, x1, y1, srgb);
+  return q;
+}
+
+INLINE Rgba blendQuad(const SceneView* scene, Mask deep, const Quad* q, int srgb) {
+  const Rgba t00 = colorOf(scene, deep, q->t00, srgb), t10 = colorOf(scene, deep, q->t10, srgb);
+  const Rgba t01 = colorOf(scene, deep, q->t01, srgb), t11 = colorOf(scene, deep, q->t11, srgb);
   Rgba result;
   for (uint n = 0; n < 4; ++n) {
-    const Real top = t00.c[n] * (1.0f - wx) + t10.c[n] * wx;
-    const Real low = t01.c[n] * (1.0f - wx) + t11.c[n] * wx;
-    result.c[n] = top * (1.0f - wy) + low * wy;
+    const Real top = t00.c[n] * (1.0f - q->wx) + t10.c[n] * q->wx;
+    const Real low = t01.c[n] * (1.0f - q->wx) + t11.c[n] * q->wx;
+    result.c[n] = top * (1.0f - q->wy) + low * q->wy;
   }
   return result;
+}
+
+/// The blend of the four texels around (s, t), in [0, 1].
+INLINE Rgba blendTexels(const SceneView* scene, const Records* texture, const Level* level, Real s, Real t, int srgb) {
+  const Mask deep = isDeep(texture);
+  const Quad q = loadQuad(scene, level, deep, s, t, srgb);
+  return blendQuad(scene, deep, &q, srgb);
 }
 
 #ifdef TEXTURE_FOOTPRINTS
@@ -188,6 +242,7 @@ INLINE Strip stripOf(const Real* across, uint mostProbes, Natural levels, const 
 /// pair at most is in both.
 INLINE Rgba meanOver(const SceneView* scene, const Records* texture, const Level* level, const Strip* strip, Real u,
                      Real uLow, Real v, Real vLow, Mask lost, int srgb) {
+  const Mask deep = isDeep(texture);
   const Level larger = levelAt(texture, *level, strip->k);
   const Level smaller = nextLevel(texture, &larger, strip->between > 0.0f);
   const Real count = TO_REAL(strip->probes), middle = 0.5f * (count - 1.0f), inSmaller = strip->between * count;
@@ -204,9 +259,13 @@ INLINE Rgba meanOver(const SceneView* scene, const Records* texture, const Level
     const Mask isSmaller = part == 1.0f, isBoth = asked & (part > 0.0f) & !isSmaller;
     const Level one = {isSmaller ? smaller.first : larger.first, isSmaller ? smaller.width : larger.width,
                        isSmaller ? smaller.height : larger.height, level->wrapS, level->wrapT};
-    Rgba found = blendTexels(scene, texture, &one, s, t, srgb);
-    if (some(isBoth)) {
-      const Rgba other = blendTexels(scene, texture, &smaller, s, t, srgb);
+    const Quad q = loadQuad(scene, &one, deep, s, t, srgb);
+    Quad p = q;
+    const int both = some(isBoth);
+    if (both) p = loadQuad(scene, &smaller, deep, s, t, srgb);
+    Rgba found = blendQuad(scene, deep, &q, srgb);
+    if (both) {
+      const Rgba other = blendQuad(scene, deep, &p, srgb);
       for (uint c = 0; c < 4; ++c) found.c[c] = isBoth ? found.c[c] * (1.0f - part) + other.c[c] * part : found.c[c];
     }
     for (uint c = 0; c < 4; ++c) sum.c[c] = asked ? sum.c[c] + found.c[c] : sum.c[c];

@@ -6,7 +6,7 @@ depend on what else the machine does; wall seconds do.
 
   refine           from a request to all samples: wall seconds, beside time.render of as many rays
   refine cpu       the same in CPU seconds, beside what `render` takes for as many rays (from two numbers of rays)
-  first picture    from the last move of a drag to the first coarse picture, wall seconds (wanted: 0.1)
+  first picture    from the last move of a drag to the first picture, coarse or not, wall seconds (wanted: 0.1)
   full first       from there to one sample for each pixel, beside time.render of one ray for each (wanted: 1.3)
   edit             from an edit of a lamp to its first picture, wall seconds
   frame, frame cpu one frame while nothing is rendered, wall and CPU seconds (wanted: 0.016)

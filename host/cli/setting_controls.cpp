@@ -46,7 +46,7 @@ constexpr std::array kRows{
     Row{"shadows", "Light", "shadows", Kind::Switch},
     Row{"area-lights", "Light", "area lights", Kind::Switch},
     Row{"sky-light", "Light", "sky light", Kind::Switch},
-    Row{"smooth-terminator", "Light", "smooth terminator", Kind::Switch},
+    Row{"smooth-terminator", "Light", "terminator", Kind::Switch},
     Row{"glossy", "Light", "glossy", Kind::Switch},
     Row{"light-radius", "Light", "lamps, radius m", Kind::Real},
     Row{"sun-angle", "Light", "sun, °", Kind::Real},

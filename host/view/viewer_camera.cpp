@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 
 #include "analysis/focus.h"
@@ -15,6 +16,13 @@ namespace whittle::view {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+/// Not a number where the text is none.
+double parsedNumber(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0' ? value : std::numeric_limits<double>::quiet_NaN();
+}
 
 }  // namespace
 
@@ -108,9 +116,8 @@ void Viewer::setOrthographicHeight(double metres) {
 }
 
 std::string Viewer::setHeight(const std::string& text) {
-  char* end = nullptr;
-  const double metres = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || !(metres > 0.0) || !std::isfinite(metres))
+  const double metres = parsedNumber(text);
+  if (!(metres > 0.0) || !std::isfinite(metres))
     return fmt::format("{}: '{}' is no height in metres", kHeightSetting, text);
   if (!orthographicHeight()) switchOrthographic();
   setOrthographicHeight(metres);
@@ -118,9 +125,8 @@ std::string Viewer::setHeight(const std::string& text) {
 }
 
 std::string Viewer::setFov(const std::string& text) {
-  char* end = nullptr;
-  const double degrees = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || !(degrees >= 0.001 && degrees <= 179))
+  const double degrees = parsedNumber(text);
+  if (!(degrees >= 0.001 && degrees <= 179))
     return fmt::format("{}: '{}' is not from 0.001 to 179 degrees", kFovSetting, text);
   if (orthographicHeight()) switchOrthographic();
   setFieldOfView(degrees);

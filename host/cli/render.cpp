@@ -166,8 +166,8 @@ Scene loadFirstFrame(RenderOptions& o, const Frames& frames, OpenFile& file, Out
   Notices notices;
   notices.notes = uselessOptions(one.settings);
   MemoryBudget budget = budgetOf(one.scene);
-  Scene scene = loadScene(one.scene, {kTriangleBytes, kRuntimeBytes, pictureBytes}, one.settings, budget,
-                          notices, &file);
+  Scene scene = loadScene(one.scene, {kTriangleBytes, kRuntimeBytes + kCodecBytes, pictureBytes}, one.settings,
+                          budget, notices, &file);
   budget.hold(bytesKept(scene), "--frames: what the frames share");
   for (const auto& read : notices.files) check.reads(read);
   if (!file.moves() && frames.count() > 1)
@@ -274,7 +274,8 @@ int runRender(RenderOptions& o) {
   // The reference's tree comes when the device has let go of the other.
   const std::uint64_t triangle =
       o.withReference ? std::max(kTriangleBytes, kReferenceTriangleBytes) : kTriangleBytes;
-  Scene scene = loadScene(o.scene, {triangle, kRuntimeBytes, pictureBytes}, o.settings, budget, notices);
+  Scene scene =
+      loadScene(o.scene, {triangle, kRuntimeBytes + kCodecBytes, pictureBytes}, o.settings, budget, notices);
   for (const auto& file : notices.files) check.reads(file);
   if (o.settings.crop && !o.reference.empty()) reference = cutOut(reference, *o.settings.crop);
   if (trace) trace->phase("load", start);

@@ -133,7 +133,7 @@ class Sources {
   }
 
  private:
-  static constexpr CommandCosts kCosts{kTriangleBytes, kRuntimeBytes, pictureBytes};
+  static constexpr CommandCosts kCosts{kTriangleBytes, kRuntimeBytes + kCodecBytes, pictureBytes};
 
   SceneOptions wantedOptions() {
     const std::lock_guard lock(mutex_);

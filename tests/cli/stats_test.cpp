@@ -399,7 +399,8 @@ TEST(Trace, ShowsWhatTheHostDidWhileItLoaded) {
   };
   std::map<std::string, Span> phases;
   std::set<int> named;
-  for (const auto& e : readJson(folder / "t.json")["traceEvents"]) {
+  const Json trace = readJson(folder / "t.json");
+  for (const auto& e : trace["traceEvents"]) {
     if (e["ph"] == "M" && e["name"] == "thread_name") named.insert(e["tid"].get<int>());
     if (e["ph"] != "X" || e["cat"] != "phase") continue;
     const double begin = e["ts"];

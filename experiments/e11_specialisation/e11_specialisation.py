@@ -3,16 +3,17 @@
 Each scene as it is and with --keep-all-features, in turn: the frame's time, the time to compile with nothing on disk,
 bytes of buffers, and the pixels in which the two pictures differ (there must be none). Then the plainest scene with
 features that it does without: each alone, beside the scene as it is; and one after the other, until all are in. A
-feature brings those that it cannot be without. Held constant: picture, search, all threads.
+feature brings those that it cannot be without. Last, options of the picture beside the picture without them, in a scene
+that has a use for them and in one that has none. Held constant: picture, search, all threads.
 
-Writes e11_frames.tsv and e11_features.tsv (a row for each run), e11_compile.tsv, e11_pictures.tsv; figures e11_scenes,
-e11_features.
+Writes e11_frames.tsv, e11_features.tsv and e11_options.tsv (a row for each run), e11_compile.tsv, e11_pictures.tsv;
+figures e11_scenes, e11_features, e11_options.
 """
 import functools
 import json
 import subprocess
 
-from e11_specialisation import figures
+from e11_specialisation import figures, switches
 from lib import table
 from lib.context import SCENES, RunFailed, size
 from lib.measure import interleaved
@@ -117,14 +118,17 @@ def measure(context):
     pictures = context.table("e11_pictures", ["scene", "differing_pixels"])
     features = context.table("e11_features", FEATURES)
     chosen, names = scenes(context), leftOut(context)
-    progress = context.progress("e11", 4 * len(chosen) + 2 * len(names))
+    progress = context.progress("e11", 4 * len(chosen) + 2 * len(names) + len(list(switches.pairs())))
     for scene in chosen:
         measureScene(context, scene, frames, compiled, pictures)
         progress.step(scene.stem, 4)
     measureAlone(context, names, features, progress)
     measureAdded(context, names, features, compiled, progress)
+    switches.measure(context, progress)
 
 
 def plot(folder):
     names = ("e11_frames", "e11_compile", "e11_pictures", "e11_features")
     figures.draw(folder, *(table.read(folder, name) for name in names))
+    if (folder / "e11_options.tsv").exists():  # data of former runs have none
+        switches.draw(folder, table.read(folder, "e11_options"))

@@ -49,7 +49,7 @@ TEST(SceneKitPlants, ATreeStandsOnTheGroundAndForks) {
   const Tree tree = growTree(spec);
   EXPECT_EQ(openEdges(tree.wood), 0U);  // each branch is a closed body
   // A trunk, and four branches and a tip from each of trunk and branches.
-  const std::size_t twigs = 5 * 5, leaves = twigs * 6 * 6;  // six pieces of a twig, a spray on each
+  const std::size_t twigs = 5 * 5, leaves = twigs * 6 * 4;  // six pieces of a twig, a spray on each
   EXPECT_EQ(tree.leaves.indices.size() / 3, 4 * leaves);
   double highest = 0, lowest = 0;
   for (const glm::vec3& p : tree.wood.positions) {

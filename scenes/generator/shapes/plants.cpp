@@ -83,7 +83,7 @@ class Growth {
 
   /// Sprays of leaves along a twig.
   void addLeaves(const std::vector<glm::dvec3>& path) {
-    constexpr int kSpray = 6;
+    constexpr int kSpray = 4;
     for (std::size_t i = 1; i < path.size(); ++i)
       for (int k = 0; k < kSpray; ++k) {
         const double angle = kGoldenAngle * static_cast<double>(count_), rise = 0.9 * random() - 0.35;

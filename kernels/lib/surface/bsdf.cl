@@ -96,7 +96,7 @@ INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s,
 
 #if HAS(AMBIENT)
 /// What surfels send back of radiance 1 from all sides: Lambert's part, and where they are rough their metal. What
-/// smooth ones reflect is in their impulses.
+/// impulses reflect, of smooth ones and with GLOSS of all, is not in it.
 INLINE Real3 ambientReflectance(const RenderConstants* constants, const Surfel* s, Real3 w_o) {
   const Mask smooth = isSmooth(constants, s);
   const Real matte = (1.0f - s->metallic) * (1.0f - s->transmission);
@@ -106,11 +106,11 @@ INLINE Real3 ambientReflectance(const RenderConstants* constants, const Surfel* 
   const Mask reflects = smooth;
 #endif
   Real3 share = scale3(reflects ? matte : matte + s->metallic, s->baseColor);
-  if (some(smooth)) {
+  if (some(reflects)) {
     const Real cosO = dot3(s->n, w_o);
     Mask total;
     const Real3 r = dielectricReflectance(s, cosO < 1.0f ? cosO : (Real)(1.0f), &total);
-    share = choose3(smooth, mul3(real3(1.0f - r.x, 1.0f - r.y, 1.0f - r.z), share), share);
+    share = choose3(reflects, mul3(real3(1.0f - r.x, 1.0f - r.y, 1.0f - r.z), share), share);
   }
 #if HAS(UNLIT)
   return choose3((s->flags & MATERIAL_UNLIT) != 0, same3((float3)(0.0f)), share);

@@ -102,10 +102,11 @@ std::vector<FeatureNeed> needsOfTextures() {
                                  {DEEP_TEXTURES, {TEXTURES}},
                                  {TEXTURE_LEVELS, {TEXTURES}}};
 #undef WHITTLE_FEATURE
+  // Those of layers are read where their layer is there.
 #define WHITTLE_NEEDS(slot, FEATURE, encoding, factor, OTHERS) \
   needs.push_back({FEATURE, {TEXTURES}});                      \
   needs.push_back({FEATURE, WHITTLE_LIST OTHERS});
-  WHITTLE_TEXTURE_SLOTS(WHITTLE_NEEDS)
+  WHITTLE_OWN_TEXTURE_SLOTS(WHITTLE_NEEDS)
 #undef WHITTLE_NEEDS
   return needs;
 }

@@ -69,6 +69,24 @@ void dropTexturesTimes0(Material& m) {
 #undef WHITTLE_DROP
 }
 
+/// What layers that are not there are like.
+void dropUnusedLayers(Material& m) {
+  const Material plain;
+  if (!isCoated(m)) {
+    m.clearcoatRoughness = plain.clearcoatRoughness;
+    m.clearcoatNormalTexture = {};
+  }
+  if (!m.clearcoatNormalTexture.used()) m.clearcoatNormalScale = plain.clearcoatNormalScale;
+  if (!hasSheen(m)) m.sheenRoughness = plain.sheenRoughness;
+  if (!isIridescent(m)) {
+    m.iridescenceIor = plain.iridescenceIor;
+    m.mostThickness = plain.mostThickness;
+    m.iridescenceThicknessTexture = {};
+  }
+  if (!m.iridescenceThicknessTexture.used()) m.leastThickness = plain.leastThickness;
+  if (!isAnisotropic(m)) m.anisotropyRotation = plain.anisotropyRotation;
+}
+
 class Bits {
  public:
   template <typename... Values>
@@ -103,6 +121,7 @@ Material asRead(const Material& m, const Settings& settings) {
   const bool hidesBack = settings.backFaces == BackFaces::Cull && !read.volume && !transmits(read);
   if (!emits(read) && !hidesBack) read.doubleSided = false;
   dropTexturesTimes0(read);
+  dropUnusedLayers(read);
   if (!read.normalTexture.used()) read.normalScale = 1.0F;
   if (!read.volume) read.sigma_a = glm::vec3(0.0F);
   if (!isMasked(read)) read.alphaCutoff = 0.5F;

@@ -4,6 +4,9 @@
 //
 //   a [emission + direct + (magnitudes of its impulses) L] + (1 − a) L
 //
+// A coat that reflects R leaves 1 − R to what lies below it, so the same holds for R. Fibres add what they
+// scatter.
+//
 // A surface shares one unit of light between what it scatters and its impulses, so the terms do not add up:
 // the expression is linear in each of coverage a, metallic m, transmission τ and the Fresnel reflectance F,
 // so that its maximum is at an end of each one's range. It is convex in L, and so is the largest over all
@@ -55,8 +58,12 @@ struct Surface {
   Interval metallic{0, 0}, transmission{0, 0};
   double specular = 0;
   bool smooth = false, rough = false, volume = false, blends = false;
-  bool glossy = false;     ///< where it is rough it sends out impulses too
-  bool turnsRays = false;  ///< sends out impulses that do not go straight on
+  glm::dvec3 sheen{0};          ///< direct light that its fibres return
+  glm::dvec3 coatHighlight{0};  ///< the same for the lobe of a coat, were it to reflect all
+  double coat = 0;              ///< the most that the coat reflects
+  bool coatReflects = false;    ///< sends out impulses
+  bool glossy = false;          ///< where it is rough it sends out impulses too
+  bool turnsRays = false;       ///< sends out impulses that do not go straight on
 };
 
 /// D V cos for microfacets of at least this alpha. D = α²/(π ((n·h)²(α² − 1) + 1)²) is largest at n·h = 1,
@@ -64,6 +71,13 @@ struct Surface {
 double largestLobe(double alpha) {
   const double a2 = alpha * alpha, least = a2 - 7e-7;
   return a2 / (std::numbers::pi * least * least) * 0.5 / alpha;
+}
+
+/// D V cos of fibres of at least this roughness: D is largest across the normal; V cosᵢ <= 1/(4 cosₒ (1 +
+/// Λ(cosₒ))), which is at most 0.39 for the roughest fibres (host/reference/sheen.cpp).
+double largestFibreLobe(double roughness) {
+  const double least = std::max(roughness, 0.07);
+  return (2 + 1 / (least * least)) / (2 * std::numbers::pi) * 0.4;
 }
 
 /// In range. A base colour (`color`: with the vertices') may be any that is not negative; metallic and
@@ -81,6 +95,24 @@ struct Arriving {
   glm::dvec3 biradiance;  ///< of all lights with a place or a direction
   glm::dvec3 allAround;   ///< radiance from all sides
 };
+
+/// What lies over a surface; s: what lies below.
+void addLayers(const Material& m, const Settings& settings, const Arriving& arriving, Surface& s) {
+  const float mirrorRoughness = settings.mirrorRoughness;
+  s.coat = std::clamp(static_cast<double>(m.clearcoat), 0.0, 1.0);
+  s.coatReflects = coatCanReflect(m, reflectingRoughness(settings));
+  const bool isRough = coatCanBeRough(m, mirrorRoughness);
+  const float least = coatCanReflect(m, mirrorRoughness) ? mirrorRoughness : m.clearcoatRoughness;
+  const double lobe = largestLobe(std::max(static_cast<double>(least) * least, 1e-3));
+  const double fibres =
+      largestFibreLobe(m.sheenRoughnessTexture.used() ? 0 : static_cast<double>(m.sheenRoughness));
+  for (int c = 0; c < 3; ++c) {
+    const double around = arriving.allAround[c],
+                 color = hasSheen(m) ? static_cast<double>(m.sheenColor[c]) : 0;
+    s.sheen[c] = times(color, times(fibres, arriving.biradiance[c]) + around);
+    if (isRough) s.coatHighlight[c] = times(lobe, arriving.biradiance[c]) + around;
+  }
+}
 
 /// vertexColor: the largest of the scene.
 Surface surfaceOf(const Material& m, const Settings& settings, const glm::dvec3& vertexColor,
@@ -109,6 +141,8 @@ Surface surfaceOf(const Material& m, const Settings& settings, const glm::dvec3&
     s.matte[c] = times(s.color[c] / std::numbers::pi, arriving.biradiance[c]) + around * s.color[c];
     s.highlight[c] = times(lobe, arriving.biradiance[c]) + around * std::max(1.0, s.color[c]);
   }
+  if (isIridescent(m)) s.specular = 1;
+  addLayers(m, settings, arriving, s);
   return s;
 }
 
@@ -138,7 +172,10 @@ double returned(const Surface& s, int c, double L) {
       if (s.smooth) most = std::max(most, returnedBySmooth(s, c, metallic, tau, L));
       if (s.rough) most = std::max(most, returnedByRough(s, c, metallic, tau, L));
     }
-  const double radiance = s.own[c] + most;
+  const double below = s.own[c] + most + s.sheen[c];
+  const double coated =
+      times(1 - s.coat, below) + times(s.coat, s.coatHighlight[c] + (s.coatReflects ? L : 0));
+  const double radiance = std::max(below, coated);
   return s.blends ? std::max(radiance, L) : radiance;
 }
 
@@ -212,7 +249,7 @@ glm::dvec3 largestImpulses(std::vector<Surface> surfaces, const glm::dvec3& arri
   glm::dvec3 most(0);
   for (Surface& s : surfaces) {
     if (!s.turnsRays) continue;
-    s.own = s.matte = s.highlight = glm::dvec3(0);
+    s.own = s.matte = s.highlight = s.sheen = s.coatHighlight = glm::dvec3(0);
     for (int c = 0; c < 3; ++c) most[c] = std::max(most[c], returned(s, c, arriving[c]));
   }
   return most;

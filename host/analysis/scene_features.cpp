@@ -146,13 +146,13 @@ std::vector<Question> materialQuestions(const Needs& n) {
   };
 }
 
-/// A question for each texture slot.
+/// A question for each texture slot that has a feature of its own.
 std::vector<Question> textureQuestions(const Needs& n) {
   return {
 #define WHITTLE_QUESTION(slot, FEATURE, encoding, factor, OTHERS)                    \
   {Feature::FEATURE, n.anyMaterial([](const Material& m) { return m.slot.used(); }), \
    fmt::format("no {}", featureText(Feature::FEATURE))},
-      WHITTLE_TEXTURE_SLOTS(WHITTLE_QUESTION)
+      WHITTLE_OWN_TEXTURE_SLOTS(WHITTLE_QUESTION)
 #undef WHITTLE_QUESTION
   };
 }
@@ -212,7 +212,7 @@ std::vector<Question> impulseQuestions(const Needs& n) {
        n.settings.backFaces == BackFaces::Cull ? "every surface has two sides" : "back faces are shown",
        true},
       {F::MIRROR, some && n.anyReflecting(canReflect), some ? "no smooth material reflects" : none},
-      {F::GLOSS, some && n.settings.glossy && n.anyMaterial(canBeRough),
+      {F::GLOSS, some && n.settings.glossy && (n.anyMaterial(canBeRough) || n.anyMaterial(coatCanBeRough)),
        n.settings.glossy ? "no material is rough" : "rough surfaces show highlights alone", true},
       {F::REFRACTION, some && n.anyMaterial(refracts), "no transmitting material bounds a volume"},
       {F::ALPHA_MASK, n.anyMaterial(isMasked),

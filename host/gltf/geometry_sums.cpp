@@ -46,7 +46,9 @@ double passingBytes(const Document& document, const tinygltf::Primitive& p, doub
   const double baking = (kPlace + (hasNormal ? kNormal : 0) + (hasTangent ? kTangent : 0)) * vertices;
   const Json& materials = child(document.json, "materials");
   const bool makesTangents = !hasTangent && p.material >= 0 && at(p.material) < materials.size() &&
-                             materials[at(p.material)].contains("normalTexture");
+                             (materials[at(p.material)].contains("normalTexture") ||
+                              extension(materials[at(p.material)], "KHR_materials_clearcoat") ||
+                              extension(materials[at(p.material)], "KHR_materials_anisotropy"));
   return std::max({reading, baking, makesTangents ? kMaking * vertices + kCorner * corners : 0.0});
 }
 

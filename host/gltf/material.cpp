@@ -64,6 +64,37 @@ void readVolume(const Json& volume, const std::string& label, Material& out, Not
   for (int i = 0; i < 3; ++i) out.sigma_a[i] = absorption(c[i], distance);
 }
 
+/// What lies over the surface, and how its facets lie.
+void readLayers(const Json& json, TextureReader& textures, Material& out) {
+  if (const Json* e = extension(json, "KHR_materials_clearcoat")) {
+    out.clearcoat = factor(*e, "clearcoatFactor", 0.0);
+    out.clearcoatTexture = textures.slot(*e, "clearcoatTexture");
+    out.clearcoatRoughness = factor(*e, "clearcoatRoughnessFactor", 0.0);
+    out.clearcoatRoughnessTexture = textures.slot(*e, "clearcoatRoughnessTexture");
+    out.clearcoatNormalTexture = textures.slot(*e, "clearcoatNormalTexture");
+    out.clearcoatNormalScale = factor(child(*e, "clearcoatNormalTexture"), "scale", 1.0);
+  }
+  if (const Json* e = extension(json, "KHR_materials_sheen")) {
+    out.sheenColor = colour(*e, "sheenColorFactor", 0.0F);
+    out.sheenColorTexture = textures.slot(*e, "sheenColorTexture");
+    out.sheenRoughness = factor(*e, "sheenRoughnessFactor", 0.0);
+    out.sheenRoughnessTexture = textures.slot(*e, "sheenRoughnessTexture");
+  }
+  if (const Json* e = extension(json, "KHR_materials_iridescence")) {
+    out.iridescence = factor(*e, "iridescenceFactor", 0.0);
+    out.iridescenceTexture = textures.slot(*e, "iridescenceTexture");
+    out.iridescenceIor = factor(*e, "iridescenceIor", 1.3);
+    out.leastThickness = factor(*e, "iridescenceThicknessMinimum", 100.0);
+    out.mostThickness = factor(*e, "iridescenceThicknessMaximum", 400.0);
+    out.iridescenceThicknessTexture = textures.slot(*e, "iridescenceThicknessTexture");
+  }
+  if (const Json* e = extension(json, "KHR_materials_anisotropy")) {
+    out.anisotropy = factor(*e, "anisotropyStrength", 0.0);
+    out.anisotropyRotation = factor(*e, "anisotropyRotation", 0.0);
+    out.anisotropyTexture = textures.slot(*e, "anisotropyTexture");
+  }
+}
+
 void readExtensions(const Json& json, const std::string& label, TextureReader& textures, Material& out,
                     Notices& notices) {
   if (const Json* e = extension(json, "KHR_materials_emissive_strength")) {
@@ -87,6 +118,7 @@ void readExtensions(const Json& json, const std::string& label, TextureReader& t
     out.specularColorTexture = textures.slot(*e, "specularColorTexture");
   }
   if (const Json* e = extension(json, "KHR_materials_volume")) readVolume(*e, label, out, notices);
+  readLayers(json, textures, out);
   out.unlit = extension(json, "KHR_materials_unlit") != nullptr;
 }
 

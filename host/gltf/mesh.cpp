@@ -11,6 +11,7 @@
 
 #include "gltf/accessor.h"
 #include "gltf/topology.h"
+#include "scene/material_predicates.h"
 
 namespace whittle::gltf {
 
@@ -30,6 +31,18 @@ constexpr Format kTangent{4, 4, false, false};
 constexpr Format kCoordinate{2, 2, true, false};
 constexpr Format kColour{3, 4, false, true};
 constexpr Format kWeights{4, 4, false, true};
+
+/// Something else than a normal map asks for tangents.
+bool isLaidAlongTangents(const Material& m) {
+  return (isCoated(m) && m.clearcoatNormalTexture.used()) || isAnisotropic(m);
+}
+
+/// The texture along which tangents lie; where none has to, one of the first set of coordinates, as it is.
+const TextureSlot& tangentSlot(const Material& m) {
+  for (const auto slot : {&Material::normalTexture, &Material::clearcoatNormalTexture})
+    if ((m.*slot).used()) return m.*slot;
+  return m.anisotropyTexture;
+}
 
 class PrimitiveReader {
  public:
@@ -52,7 +65,7 @@ class PrimitiveReader {
     if (needs.uv[1]) readCoordinates(mesh, 1);
     readColours(mesh);
     mesh.triangles = readTriangles(document_, primitive_, count_, label_, notices_);
-    if (needs.tangents) findTangents(mesh, material.normalTexture);
+    if (needs.tangents) findTangents(mesh, tangentSlot(material));
     return mesh;
   }
 
@@ -216,7 +229,7 @@ Needs needsOf(const Material& material) {
   };
   for (const auto slot : kTextureSlots) read(material.*slot);
   read(material.occlusionTexture);
-  needs.tangents = material.normalTexture.used();
+  needs.tangents = material.normalTexture.used() || isLaidAlongTangents(material);
   return needs;
 }
 

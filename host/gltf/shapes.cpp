@@ -162,11 +162,25 @@ constexpr auto kSpecular =
 constexpr auto kSpecularGlossiness = forgiving(
     std::array{colourWithAlpha("diffuseFactor"), object("diffuseTexture", kSlot), nums("specularFactor", 3),
                num("glossinessFactor"), object("specularGlossinessTexture", kSlot)});
+constexpr auto kClearcoat = forgiving(
+    std::array{num("clearcoatFactor"), object("clearcoatTexture", kSlot), num("clearcoatRoughnessFactor"),
+               object("clearcoatRoughnessTexture", kSlot), object("clearcoatNormalTexture", kSlot)});
+constexpr auto kSheen =
+    forgiving(std::array{nums("sheenColorFactor", 3), object("sheenColorTexture", kSlot),
+                         num("sheenRoughnessFactor"), object("sheenRoughnessTexture", kSlot)});
+constexpr auto kIridescence =
+    forgiving(std::array{num("iridescenceFactor"), object("iridescenceTexture", kSlot), num("iridescenceIor"),
+                         num("iridescenceThicknessMinimum"), num("iridescenceThicknessMaximum"),
+                         object("iridescenceThicknessTexture", kSlot)});
+constexpr auto kAnisotropy = forgiving(
+    std::array{num("anisotropyStrength"), num("anisotropyRotation"), object("anisotropyTexture", kSlot)});
 constexpr auto kMaterialExtensions = forgiving(std::array{
     object("KHR_materials_pbrSpecularGlossiness", kSpecularGlossiness),
     object("KHR_materials_emissive_strength", kEmissiveStrength), object("KHR_materials_ior", kIor),
     object("KHR_materials_transmission", kTransmission), object("KHR_materials_volume", kVolume),
-    object("KHR_materials_specular", kSpecular), object("KHR_materials_unlit", {})});
+    object("KHR_materials_specular", kSpecular), object("KHR_materials_unlit", {}),
+    object("KHR_materials_clearcoat", kClearcoat), object("KHR_materials_sheen", kSheen),
+    object("KHR_materials_iridescence", kIridescence), object("KHR_materials_anisotropy", kAnisotropy)});
 constexpr auto kMaterial = forgiving(std::array{
     text("name"), object("pbrMetallicRoughness", kPbr), object("normalTexture", kSlot),
     object("occlusionTexture", kSlot), object("emissiveTexture", kSlot), nums("emissiveFactor", 3),

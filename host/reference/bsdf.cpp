@@ -4,20 +4,45 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace whittle::reference {
 namespace {
 
 constexpr double kMinAlpha = 1e-3;  // keeps the highlight finite where even r = 0 counts as rough
 
-double alphaOf(const Surfel& s) { return std::max(square(s.roughness), kMinAlpha); }
+/// GGX about n, with alphas of its own along `tangent` and across it.
+struct Facets {
+  Vec3 n, tangent, bitangent;
+  double along, across;
+};
 
-/// Microfacet distribution times visibility: GGX, Walter et al. 2007; height-correlated Smith, Heitz 2014.
-double microfacets(double alpha, double nh, double ni, double no) {
-  const double a2 = alpha * alpha;
-  const double D = a2 / (kPi * square(nh * nh * (a2 - 1) + 1));
-  const double V = 0.5 / (ni * std::sqrt(a2 + (1 - a2) * no * no) + no * std::sqrt(a2 + (1 - a2) * ni * ni));
-  return D * V;
+Facets facetsOf(const Coat& coat) {
+  const auto [right, up] = basisAbout(coat.n);
+  const double alpha = std::max(square(coat.roughness), kMinAlpha);
+  return {coat.n, right, up, alpha, alpha};
+}
+
+Facets facetsOf(const Surfel& s) {
+  const double alpha = std::max(square(s.roughness), kMinAlpha);
+  if (s.grain != Vec3(0))
+    return {s.n, s.grain, glm::cross(s.n, s.grain), std::lerp(alpha, 1.0, s.stretch), alpha};
+  const auto [right, up] = basisAbout(s.n);
+  return {s.n, right, up, alpha, alpha};
+}
+
+/// w in the facets' frame, stretched by their alphas.
+Vec3 stretched(const Facets& f, const Vec3& w) {
+  return {f.along * glm::dot(f.tangent, w), f.across * glm::dot(f.bitangent, w), glm::dot(f.n, w)};
+}
+
+/// Microfacet distribution times visibility: GGX, Walter et al. 2007; height-correlated Smith, Heitz 2014;
+/// with two alphas as in KHR_materials_anisotropy.
+double microfacets(const Facets& f, const Vec3& w_o, const Vec3& w_i, const Vec3& h) {
+  const Vec3 slope(glm::dot(f.tangent, h) / f.along, glm::dot(f.bitangent, h) / f.across, glm::dot(f.n, h));
+  const double D = 1 / (kPi * f.along * f.across * square(glm::dot(slope, slope)));
+  const double no = glm::dot(f.n, w_o), ni = glm::dot(f.n, w_i);
+  return D * 0.5 / (ni * glm::length(stretched(f, w_o)) + no * glm::length(stretched(f, w_i)));
 }
 
 Vec3 mirrored(const Vec3& w_o, const Vec3& n) { return 2 * glm::dot(n, w_o) * n - w_o; }
@@ -29,9 +54,9 @@ std::optional<Vec3> refracted(const Vec3& w_o, const Vec3& n, double eta) {
   return glm::normalize(-w_o / eta + (cosI / eta - cosT) * n);
 }
 
-Vec3 reflectedDirection(const Surfel& surfel, const Vec3& w_o) {
-  const Vec3 w_i = mirrored(w_o, surfel.n);
-  return glm::dot(surfel.facing, w_i) > 0 ? w_i : mirrored(w_o, surfel.facing);
+Vec3 reflectedDirection(const Vec3& n, const Vec3& facing, const Vec3& w_o) {
+  const Vec3 w_i = mirrored(w_o, n);
+  return glm::dot(facing, w_i) > 0 ? w_i : mirrored(w_o, facing);
 }
 
 /// Where light seen through the surface comes from; nothing at total reflection.
@@ -44,26 +69,23 @@ std::optional<Vec3> transmittedDirection(const Surfel& surfel, const Vec3& w_o) 
 
 /// The normal of a microfacet that w_o sees, by how much of w_o each takes up: Heitz, "Sampling the GGX
 /// Distribution of Visible Normals", JCGT 2018; by spherical caps, Dupuy and Benyoub 2023.
-Vec3 visibleNormal(const Surfel& s, const Vec3& w_o, const Vec2& u) {
-  const auto [right, up] = basisAbout(s.n);
-  const double alpha = alphaOf(s), angle = 2 * kPi * u.x;
-  const Vec3 seen =
-      glm::normalize(Vec3(alpha * glm::dot(right, w_o), alpha * glm::dot(up, w_o), glm::dot(s.n, w_o)));
+Vec3 visibleNormal(const Facets& f, const Vec3& w_o, const Vec2& u) {
+  const double angle = 2 * kPi * u.x;
+  const Vec3 seen = glm::normalize(stretched(f, w_o));
   const double z = (1 - u.y) * (1 + seen.z) - seen.z, across = std::sqrt(std::max(0.0, 1 - z * z));
   const Vec3 cap = Vec3(across * std::cos(angle), across * std::sin(angle), z) + seen;
-  return glm::normalize(alpha * cap.x * right + alpha * cap.y * up + cap.z * s.n);
+  return glm::normalize(f.along * cap.x * f.tangent + f.across * cap.y * f.bitangent + cap.z * f.n);
 }
 
 /// Smith's Λ (Heitz 2014).
-double hidden(const Surfel& s, const Vec3& w) {
-  const double c2 = square(glm::dot(s.n, w));
-  return (std::sqrt(1 + square(alphaOf(s)) * std::max(0.0, 1 - c2) / c2) - 1) / 2;
+double hidden(const Facets& f, const Vec3& w) {
+  return (glm::length(stretched(f, w)) / std::abs(glm::dot(f.n, w)) - 1) / 2;
 }
 
 /// Towards w_i from the sampled normal: G2/G1, height-correlated; 0 below the surface.
-double reflectedShare(const Surfel& s, const Vec3& w_o, const Vec3& w_i) {
-  if (!(glm::dot(s.n, w_i) > 0 && glm::dot(s.facing, w_i) > 0)) return 0;
-  return (1 + hidden(s, w_o)) / (1 + hidden(s, w_o) + hidden(s, w_i));
+double reflectedShare(const Facets& f, const Vec3& facing, const Vec3& w_o, const Vec3& w_i) {
+  if (!(glm::dot(f.n, w_i) > 0 && glm::dot(facing, w_i) > 0)) return 0;
+  return (1 + hidden(f, w_o)) / (1 + hidden(f, w_o) + hidden(f, w_i));
 }
 
 /// Where a glossy surfel sends what goes through one of its facets, and G1 of the way there.
@@ -71,33 +93,105 @@ std::optional<Vec3> transmittedByFacet(const Surfel& s, const Vec3& w_o, const V
   if (!s.volume || s.eta == 1) return -w_o;
   const auto w_i = refracted(w_o, facet, s.eta);
   if (!w_i || !(glm::dot(s.facing, *w_i) < 0 && glm::dot(s.n, *w_i) < 0)) return std::nullopt;
-  share = 1 / (1 + hidden(s, *w_i));
+  share = 1 / (1 + hidden(facetsOf(s), *w_i));
   return w_i;
+}
+
+Vec3 dielectricAt(const Surfel& s, double cosine) {
+  const bool total = s.fresnel.r0 < 1 && s.eta != 1 && totallyReflected(cosine, s.eta);
+  const Vec3 clear = s.fresnel.reflectance(cosine, s.eta);
+  return total ? clear : s.film.over(clear, s.fresnel.f0, cosine);
+}
+
+/// Of facets, as glTF's highlights have it.
+Vec3 roughDielectricAt(const Surfel& s, double cosine) {
+  return s.film.over(schlick(s.fresnel.f0, s.fresnel.f90, cosine), s.fresnel.f0, cosine);
+}
+
+Vec3 metalAt(const Surfel& s, double cosine) {
+  return s.film.over(schlick(s.baseColor, Vec3(1), cosine), s.baseColor, cosine);
+}
+
+double sheenAlbedo(const Surfel& s, double cosO, double cosI) {
+  if (!s.sheen.isThere()) return 0;
+  return std::max(fibreAlbedo(s.sheen.roughness, cosO), fibreAlbedo(s.sheen.roughness, cosI));
+}
+
+double belowSheen(const Surfel& s, double albedo) {
+  return std::max(0.0, 1 - maxComponent(s.sheen.color) * albedo);
+}
+
+/// The share that layers leave of what goes between w_o and w_i below them.
+double belowLayers(const Surfel& s, double cosO, double cosI) {
+  return belowSheen(s, sheenAlbedo(s, cosO, cosI)) * (1 - s.coat.reflectance);
+}
+
+/// Of the surface without its layers.
+Vec3 baseBsdf(const Surfel& s, const Vec3& w_i, const Vec3& w_o, bool withoutGloss) {
+  const double no = glm::dot(s.n, w_o);
+  const Vec3 diffuse = (1 - s.transmission) * s.baseColor / kPi;
+  if (s.smooth) return (1 - s.metallic) * (1.0 - dielectricAt(s, no)) * diffuse;
+
+  const Vec3 h = glm::normalize(w_i + w_o);
+  const double oh = glm::dot(w_o, h);
+  const double lobe = withoutGloss && s.glossy ? 0.0 : microfacets(facetsOf(s), w_o, w_i, h);
+  const Vec3 dielectric = roughDielectricAt(s, oh);
+  return (1 - s.metallic) * ((1 - maxComponent(dielectric)) * diffuse + dielectric * lobe) +
+         s.metallic * metalAt(s, oh) * lobe;
+}
+
+/// Of the coat; irradiance counts by the cosine to its own normal.
+double coatBsdf(const Surfel& s, const Vec3& w_i, const Vec3& w_o, bool withoutGloss) {
+  const double cosine = glm::dot(s.coat.n, w_i);
+  if (s.coat.smooth || s.coat.reflectance == 0 || cosine <= 0 || (withoutGloss && s.coat.glossy)) return 0;
+  const Vec3 h = glm::normalize(w_i + w_o);
+  return s.coat.reflectance * microfacets(facetsOf(s.coat), w_o, w_i, h) * cosine / glm::dot(s.n, w_i);
+}
+
+/// The mirror reflection of the coat, or that of one of its facets.
+Impulse coatImpulse(const Surfel& s, const Vec3& w_o, const Vec2& facets) {
+  Impulse impulse{w_o, Vec3(0), false};
+  if (!s.coat.smooth && !s.coat.glossy) return impulse;
+  double share = 1;
+  if (s.coat.glossy) {
+    const Facets own = facetsOf(s.coat);
+    impulse.w_i = mirrored(w_o, visibleNormal(own, w_o, facets));
+    share = reflectedShare(own, s.facing, w_o, impulse.w_i);
+  } else {
+    impulse.w_i = reflectedDirection(s.coat.n, s.facing, w_o);
+  }
+  impulse.magnitude = Vec3(s.alpha * s.coat.reflectance * share);
+  return impulse;
 }
 
 }  // namespace
 
 Vec3 spreadingBsdf(const Surfel& s, const Vec3& w_i, const Vec3& w_o, bool withoutGloss) {
-  const double no = glm::dot(s.n, w_o);
-  const Vec3 diffuse = (1 - s.transmission) * s.baseColor / kPi;
-  if (s.smooth) return (1 - s.metallic) * (1.0 - s.fresnel.reflectance(no, s.eta)) * diffuse;
+  const double no = glm::dot(s.n, w_o), ni = glm::dot(s.n, w_i), albedo = sheenAlbedo(s, no, ni);
+  Vec3 f = belowSheen(s, albedo) * baseBsdf(s, w_i, w_o, withoutGloss);
+  if (s.sheen.isThere()) {
+    const double nh = glm::dot(s.n, glm::normalize(w_i + w_o));
+    f += s.sheen.color * fibreLobe(s.sheen.roughness, no, ni, nh) / std::max(1.0, albedo);
+  }
+  return (1 - s.coat.reflectance) * f + coatBsdf(s, w_i, w_o, withoutGloss);
+}
 
-  const double ni = glm::dot(s.n, w_i);
-  const Vec3 h = glm::normalize(w_i + w_o);
-  const double oh = glm::dot(w_o, h);
-  const double lobe = withoutGloss && s.glossy ? 0.0 : microfacets(alphaOf(s), glm::dot(s.n, h), ni, no);
-  const Vec3 dielectric = schlick(s.fresnel.f0, s.fresnel.f90, oh);
-  const Vec3 metal = schlick(s.baseColor, Vec3(1), oh);
-  return (1 - s.metallic) * ((1 - maxComponent(dielectric)) * diffuse + dielectric * lobe) +
-         s.metallic * metal * lobe;
+Vec3 ambientReflectance(const Surfel& s, const Vec3& w_o) {
+  const double no = std::min(1.0, glm::dot(s.n, w_o)), albedo = sheenAlbedo(s, no, no);
+  const Vec3 matte = (1 - s.metallic) * (1 - s.transmission) * s.baseColor;
+  Vec3 share = matte + s.metallic * s.baseColor;
+  if (s.smooth || s.glossy) share = matte * (1.0 - dielectricAt(s, no));
+  share = belowSheen(s, albedo) * share + s.sheen.color * std::min(albedo, 1.0);
+  const bool isCoatInImpulses = s.coat.smooth || s.coat.glossy;
+  return (1 - s.coat.reflectance) * share + (isCoatInImpulses ? 0.0 : s.coat.reflectance);
 }
 
 Impulses impulsesOf(const Surfel& s, const Vec3& w_o, const Vec2& facets) {
-  const Vec3 n = s.glossy ? visibleNormal(s, w_o, facets) : s.n;
+  const Vec3 n = s.glossy ? visibleNormal(facetsOf(s), w_o, facets) : s.n;
   const double cosine = std::min(1.0, glm::dot(n, w_o));
   const bool isOpaqueGloss = s.glossy && !(s.transmission > 0);  // as its highlight has it
-  const Vec3 dielectric =
-      isOpaqueGloss ? schlick(s.fresnel.f0, s.fresnel.f90, cosine) : s.fresnel.reflectance(cosine, s.eta);
+  const Vec3 dielectric = isOpaqueGloss ? roughDielectricAt(s, cosine) : dielectricAt(s, cosine);
+  const double cosO = glm::dot(s.n, w_o);
   Impulse straight{-w_o, Vec3(1 - s.alpha), true, true};
   Impulse transmission{-w_o, Vec3(0), true, !s.volume || s.eta == 1};
   Impulse reflection{w_o, Vec3(0), false};
@@ -108,16 +202,23 @@ Impulses impulsesOf(const Surfel& s, const Vec3& w_o, const Vec2& facets) {
                                                        : transmittedDirection(s, w_o);
   if (beyond) {
     transmission.w_i = *beyond;
-    transmission.magnitude =
-        share * s.alpha * (1 - s.metallic) * s.transmission * s.baseColor * (1.0 - dielectric);
+    transmission.magnitude = belowLayers(s, cosO, cosO) * share * s.alpha * (1 - s.metallic) *
+                             s.transmission * s.baseColor * (1.0 - dielectric);
   }
   const bool refracts = s.volume && s.transmission > 0 && s.eta != 1 && s.eta > 0;
   const bool reflectedInside = refracts && totallyReflected(cosine, s.eta);
   if ((s.smooth || s.glossy || reflectedInside) && !s.unlit) {
-    const Vec3 metal = schlick(s.baseColor, Vec3(1), cosine);
-    reflection.w_i = s.glossy ? mirrored(w_o, n) : reflectedDirection(s, w_o);
-    reflection.magnitude = (s.glossy ? reflectedShare(s, w_o, reflection.w_i) : 1) * s.alpha *
-                           ((1 - s.metallic) * dielectric + s.metallic * metal);
+    reflection.w_i = s.glossy ? mirrored(w_o, n) : reflectedDirection(s.n, s.facing, w_o);
+    reflection.magnitude = belowLayers(s, cosO, glm::dot(s.n, reflection.w_i)) *
+                           (s.glossy ? reflectedShare(facetsOf(s), s.facing, w_o, reflection.w_i) : 1) *
+                           s.alpha * ((1 - s.metallic) * dielectric + s.metallic * metalAt(s, cosine));
+  }
+  Impulse coat = coatImpulse(s, w_o, facets);
+  const bool alike = s.smooth && s.coat.smooth && s.n == s.coat.n;
+  if (!anyPositive(reflection.magnitude)) {
+    reflection = std::exchange(coat, {w_o, Vec3(0), false});
+  } else if (alike || s.alpha < 1 || anyPositive(transmission.magnitude)) {  // no room for a third
+    reflection.magnitude += std::exchange(coat.magnitude, Vec3(0));
   }
   if (!s.volume && s.alpha < 1) {  // what comes through a sheet goes on the same way: one ray does for both
     straight.magnitude += transmission.magnitude;
@@ -125,6 +226,7 @@ Impulses impulsesOf(const Surfel& s, const Vec3& w_o, const Vec2& facets) {
   }
   Impulses impulses;
   impulses.add(straight);
+  impulses.add(coat);
   if (!(anyPositive(straight.magnitude) && anyPositive(transmission.magnitude))) impulses.add(reflection);
   impulses.add(transmission);
   return impulses;

@@ -12,6 +12,10 @@ namespace whittle::reference {
 /// `withoutGloss`: what a glossy surfel's impulses have is left out.
 Vec3 spreadingBsdf(const Surfel& surfel, const Vec3& w_i, const Vec3& w_o, bool withoutGloss = false);
 
+/// What a lit surface sends back of radiance 1 from all sides: Lambert's part, and where it is rough its
+/// metal. What it reflects otherwise is in its impulses.
+Vec3 ambientReflectance(const Surfel& surfel, const Vec3& w_o);
+
 /// The delta part of the BSDF: all light goes one way.
 struct Impulse {
   Vec3 w_i;               ///< unit, from the surface

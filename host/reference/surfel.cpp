@@ -80,17 +80,20 @@ std::optional<Vec3> liftAt(const Scene& scene, const TriangleIndex& triangles, c
   return lift;
 }
 
-/// `n` tilted by the material's normal map; `n` itself where there is none or no tangent to lay it along.
-Vec3 mappedNormal(const Lookups& look, const Material& material, const Vec3& n) {
-  const auto& [scene, hit, ray, filtering] = look;
-  if (!material.normalTexture.used() || scene.tangents.empty()) return n;
-  const Vec3 tangent(interpolate(scene, scene.tangents, hit, Vec4(0)));
+/// Tangent, bitangent and n as columns; not finite where there is no tangent.
+glm::dmat3 tangentSpace(const Lookups& look, const Vec3& n) {
+  const Scene& scene = look.scene;
+  const Vec3 tangent(interpolate(scene, scene.tangents, look.hit, Vec4(0)));
   const Vec3 T = glm::normalize(tangent - n * glm::dot(n, tangent));
-  const Vec3 B = static_cast<double>(scene.tangents[scene.triangles[hit.triangle].v0].w) * glm::cross(n, T);
-  Vec3 t = Vec3(look.of(material.normalTexture)) * 2.0 - 1.0;
-  t.x *= material.normalScale;
-  t.y *= material.normalScale;
-  const Vec3 mapped = glm::normalize(T * t.x + B * t.y + n * t.z);
+  const double hand = scene.tangents.empty() ? 1 : scene.tangents[scene.triangles[look.hit.triangle].v0].w;
+  return {T, hand * glm::cross(n, T), n};
+}
+
+/// `n` tilted by a normal map; `n` itself where there is none or no tangent to lay it along.
+Vec3 mappedNormal(const Lookups& look, const TextureSlot& map, double scale, const Vec3& n) {
+  if (!map.used()) return n;
+  const Vec3 t = Vec3(look.of(map)) * 2.0 - 1.0;
+  const Vec3 mapped = glm::normalize(tangentSpace(look, n) * (t * Vec3(scale, scale, 1)));
   return isFinite(mapped) ? mapped : n;
 }
 
@@ -122,6 +125,44 @@ double relativeIndex(const Material& material, bool front) {
   return front || !material.volume || ior == 0 ? ior : 1 / ior;
 }
 
+Coat coatAt(const Lookups& look, const Material& m, const Settings& settings, const Vec3& n,
+            const Vec3& w_o) {
+  Coat coat;
+  coat.n = n;
+  const double covered = std::clamp(m.clearcoat * look.of(m.clearcoatTexture).r, 0.0, 1.0);
+  coat.reflectance = covered * schlick(Vec3(0.04), Vec3(1), std::min(1.0, glm::dot(n, w_o))).x;
+  coat.roughness = std::clamp(m.clearcoatRoughness * look.of(m.clearcoatRoughnessTexture).g, 0.0, 1.0);
+  coat.smooth = coat.roughness < static_cast<double>(settings.mirrorRoughness);
+  coat.glossy = settings.glossy && !coat.smooth;
+  return coat;
+}
+
+Sheen sheenAt(const Lookups& look, const Material& m) {
+  return {Vec3(m.sheenColor) * Vec3(look.of(m.sheenColorTexture, kColors)),
+          std::clamp(m.sheenRoughness * look.of(m.sheenRoughnessTexture).a, 0.0, 1.0)};
+}
+
+ThinFilm filmAt(const Lookups& look, const Material& m) {
+  const double blended = look.of(m.iridescenceThicknessTexture).g;
+  return {std::clamp(m.iridescence * look.of(m.iridescenceTexture).r, 0.0, 1.0), m.iridescenceIor,
+          std::lerp(static_cast<double>(m.leastThickness), static_cast<double>(m.mostThickness), blended)};
+}
+
+/// The direction along which facets are rougher, about `unmapped`, the normal before its map; and by how
+/// much.
+void layFacets(const Lookups& look, const Material& m, const Vec3& unmapped, Surfel& surfel) {
+  const bool textured = m.anisotropyTexture.used();
+  const Vec4 texel = look.of(m.anisotropyTexture);
+  const Vec2 given = textured ? Vec2(texel.r, texel.g) * 2.0 - 1.0 : Vec2(1, 0);
+  const double cosine = std::cos(m.anisotropyRotation), sine = std::sin(m.anisotropyRotation);
+  const Vec3 turned = tangentSpace(look, unmapped) *
+                      Vec3(cosine * given.x - sine * given.y, sine * given.x + cosine * given.y, 0);
+  const Vec3 across = glm::normalize(turned - surfel.n * glm::dot(surfel.n, turned));
+  if (!isFinite(across)) return;
+  surfel.grain = across;
+  surfel.stretch = square(std::clamp(m.anisotropy * (textured ? texel.b : 1), 0.0, 1.0));
+}
+
 /// Base colour and coverage at a hit; coverage as the alpha mode has it (1 for opaque, unchanged for MASK).
 Vec4 baseColorAt(const Lookups& look) {
   const auto& [scene, hit, ray, filtering] = look;
@@ -147,12 +188,13 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
   const Vec3 n_g = geometricNormal(triangles, hit);
   const auto corners = triangles.corners(hit.triangle);
   const Vec4 color = baseColorAt(look);
+  const Vec3 unmapped = interpolatedNormal(scene, hit, n_g);
 
   Surfel surfel{
       .position =
           hit.barycentric[0] * corners[0] + hit.barycentric[1] * corners[1] + hit.barycentric[2] * corners[2],
       .facing = n_g,
-      .n = mappedNormal(look, material, interpolatedNormal(scene, hit, n_g)),
+      .n = mappedNormal(look, material.normalTexture, material.normalScale, unmapped),
       .front = glm::dot(n_g, w_o) > 0,
       .rayOffset = rayOffsetAt(settings, triangles, hit),
       .baseColor = Vec3(color),
@@ -176,13 +218,26 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
     surfel.lift = liftAt(scene, triangles, hit, surfel.position, n_g, surfel.front);
   if (!surfel.front) {
     surfel.facing = -surfel.facing;
-    surfel.n = -surfel.n;
     surfel.bend = -surfel.bend;
   }
-  if (glm::dot(surfel.n, w_o) <= 0) surfel.n = surfel.facing;
+  const auto turned = [&](const Vec3& n) {  // a normal of the front side, to the viewer
+    const Vec3 own = surfel.front ? n : -n;
+    return glm::dot(own, w_o) <= 0 ? surfel.facing : own;
+  };
+  surfel.n = turned(surfel.n);
   if (surfel.front || material.doubleSided) {
     surfel.emission = Vec3(material.emission) * Vec3(look.of(material.emissionTexture, kColors));
   }
+  if (material.unlit) return surfel;
+  if (surfel.front || !material.volume) {
+    const Vec3 n =
+        mappedNormal(look, material.clearcoatNormalTexture, material.clearcoatNormalScale, unmapped);
+    surfel.coat = coatAt(look, material, settings, turned(n), w_o);
+    surfel.emission *= 1 - surfel.coat.reflectance;
+  }
+  surfel.sheen = sheenAt(look, material);
+  surfel.film = filmAt(look, material);
+  if (material.anisotropy > 0) layFacets(look, material, unmapped, surfel);
   return surfel;
 }
 

@@ -4,11 +4,22 @@
 #include <optional>
 
 #include "reference/fresnel.h"
+#include "reference/sheen.h"
 #include "reference/texture_levels.h"
+#include "reference/thin_film.h"
 #include "reference/triangle_index.h"
 #include "scene/settings.h"
 
 namespace whittle::reference {
+
+/// A clear coat over everything else (KHR_materials_clearcoat).
+struct Coat {
+  double reflectance = 0;  ///< towards the viewer, times how much of the surface it covers; 0: there is none
+  double roughness = 0;
+  Vec3 n{0};            ///< its own unit shading normal, n·w_o > 0
+  bool smooth = false;  ///< as of the surfel
+  bool glossy = false;
+};
 
 struct Surfel {
   Vec3 position;     ///< world, metres
@@ -33,6 +44,11 @@ struct Surfel {
   /// With Settings::smoothTerminator, where the vertex normals mean a curved surface: from `position` to
   /// that, m.
   std::optional<Vec3> lift = {};
+  Coat coat = {};
+  Sheen sheen = {};
+  ThinFilm film = {};
+  Vec3 grain{0};       ///< unit, across n: along it facets are rougher (KHR_materials_anisotropy); 0: none
+  double stretch = 0;  ///< square of the strength
 };
 
 /// How a ray reads textures: the mean over what it stands for, where its cone is `width` metres wide. Without

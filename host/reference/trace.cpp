@@ -103,7 +103,8 @@ bool isFollowed(const Settings& settings, const Impulse& impulse, const Step& st
 
 Vec3 impulseLight(const World& world, const Sample& sample, const Ray& arrived, const Hit& hit,
                   const Surfel& surfel, const Step& step, const Vec3& throughput, RayNotes& notes) {
-  const Vec2 facets = surfel.glossy ? squareOf(world, sample, kGlossDimension + 8 * roundOf(step)) : Vec2(0);
+  const bool hasFacets = surfel.glossy || surfel.coat.glossy;
+  const Vec2 facets = hasFacets ? squareOf(world, sample, kGlossDimension + 8 * roundOf(step)) : Vec2(0);
   Impulses impulses = impulsesOf(surfel, -arrived.direction, facets);
   if (world.settings.impulses == ImpulseMode::One) {
     const auto dimension = static_cast<std::uint32_t>(kImpulseDimension + step.bounce + step.passed);
@@ -172,14 +173,6 @@ bool showsSide(const World& world, const Ray& ray, const Hit& hit) {
   if (m.doubleSided || lightPasses || world.settings.backFaces == BackFaces::Show) return true;
   const auto [p0, p1, p2] = world.triangles.corners(hit.triangle);
   return glm::dot(glm::cross(p1 - p0, p2 - p0), ray.direction) < 0;
-}
-
-/// What a lit surface sends back of radiance 1 from all sides: Lambert's part, and where it is
-/// rough its metal.
-Vec3 ambientReflectance(const Surfel& s, const Vec3& w_o) {
-  const Vec3 matte = (1 - s.metallic) * (1 - s.transmission) * s.baseColor;
-  if (!s.smooth && !s.glossy) return matte + s.metallic * s.baseColor;
-  return matte * (1.0 - s.fresnel.reflectance(std::min(1.0, glm::dot(s.n, w_o)), s.eta));
 }
 
 bool isFiniteInSinglePrecision(const Vec3& v) { return isFinite(Vec3(glm::vec3(v))); }

@@ -16,6 +16,14 @@ inline bool isLit(const Material& m) { return !m.unlit; }
 inline bool emits(const Material& m) { return isLit(m) && m.emission != glm::vec3(0.0F); }
 inline bool isMetallic(const Material& m) { return m.metallic > 0.0F; }
 
+/// KHR_materials_clearcoat at work, and the extensions after it by their names.
+inline bool isCoated(const Material& m) { return isLit(m) && m.clearcoat > 0.0F; }
+inline bool hasSheen(const Material& m) {
+  return isLit(m) && (m.sheenColor.r > 0.0F || m.sheenColor.g > 0.0F || m.sheenColor.b > 0.0F);
+}
+inline bool isIridescent(const Material& m) { return isLit(m) && m.iridescence > 0.0F; }
+inline bool isAnisotropic(const Material& m) { return isLit(m) && m.anisotropy > 0.0F; }
+
 /// What canReflect and those after it take for a mirror: with Settings::glossy anything.
 inline float reflectingRoughness(const Settings& settings) {
   return settings.glossy ? std::numeric_limits<float>::infinity() : settings.mirrorRoughness;
@@ -30,11 +38,25 @@ inline bool canBeRough(const Material& m, float mirrorRoughness) {
 }
 /// Rough, and not Lambert's alone.
 inline bool canShowHighlight(const Material& m, float mirrorRoughness) {
-  return canBeRough(m, mirrorRoughness) && (m.specular > 0.0F || isMetallic(m));
+  return canBeRough(m, mirrorRoughness) && (m.specular > 0.0F || isMetallic(m) || isIridescent(m));
+}
+
+/// Its coat is somewhere smoother than `mirrorRoughness`.
+inline bool coatCanReflect(const Material& m, float mirrorRoughness) {
+  return isCoated(m) && (m.clearcoatRoughnessTexture.used() || m.clearcoatRoughness < mirrorRoughness);
+}
+inline bool coatCanBeRough(const Material& m, float mirrorRoughness) {
+  return isCoated(m) && !(m.clearcoatRoughness < mirrorRoughness);
+}
+
+/// What lies below a coat sends out a mirror impulse.
+inline bool baseCanReflect(const Material& m, float mirrorRoughness) {
+  const bool isDielectricMirror = (m.specular > 0.0F && m.ior != 1.0F) || isIridescent(m);
+  return canBeSmooth(m, mirrorRoughness) && (isMetallic(m) || isDielectricMirror);
 }
 /// Sends out a mirror impulse.
 inline bool canReflect(const Material& m, float mirrorRoughness) {
-  return canBeSmooth(m, mirrorRoughness) && (isMetallic(m) || (m.specular > 0.0F && m.ior != 1.0F));
+  return baseCanReflect(m, mirrorRoughness) || coatCanReflect(m, mirrorRoughness);
 }
 
 inline bool transmits(const Material& m) { return isLit(m) && m.transmission > 0.0F; }
@@ -57,7 +79,8 @@ inline bool canSendImpulses(const Material& m, float mirrorRoughness) {
 }
 inline bool canSendTwoImpulses(const Material& m, float mirrorRoughness) {
   const bool reflects = canReflect(m, mirrorRoughness);
-  return (transmits(m) && (reflects || m.volume)) || (blends(m) && reflects);
+  const bool reflectsTwice = baseCanReflect(m, mirrorRoughness) && coatCanReflect(m, mirrorRoughness);
+  return reflectsTwice || (transmits(m) && (reflects || m.volume)) || (blends(m) && reflects);
 }
 
 /// KHR_materials_specular at work.

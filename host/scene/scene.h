@@ -81,6 +81,26 @@ struct Material {
   /// Absorption coefficient in 1/m, -ln(attenuationColor)/attenuationDistance; 0 where nothing is absorbed.
   /// An attenuation colour of 0 gives infinity, which is legal: e^(-inf·d) = 0, and 1 for d = 0.
   glm::vec3 sigma_a{0.0F};
+  /// KHR_materials_clearcoat: how much of the surface the coat covers; texture: red channel.
+  float clearcoat = 0.0F;
+  TextureSlot clearcoatTexture;
+  float clearcoatRoughness = 0.0F;  ///< perceptual; texture: green channel
+  TextureSlot clearcoatRoughnessTexture;
+  float clearcoatNormalScale = 1.0F;
+  TextureSlot clearcoatNormalTexture;
+  glm::vec3 sheenColor{0.0F};  ///< KHR_materials_sheen, 0: none; texture is sRGB
+  TextureSlot sheenColorTexture;
+  float sheenRoughness = 0.0F;  ///< perceptual; texture: alpha channel
+  TextureSlot sheenRoughnessTexture;
+  float iridescence = 0.0F;  ///< KHR_materials_iridescence: the share that has a film; texture: red channel
+  TextureSlot iridescenceTexture;
+  float iridescenceIor = 1.3F;  ///< of the film
+  /// Of the film in nm, where the texture's green channel is 0, and where it is 1 or there is none.
+  float leastThickness = 100.0F, mostThickness = 400.0F;
+  TextureSlot iridescenceThicknessTexture;
+  float anisotropy = 0.0F;          ///< KHR_materials_anisotropy: strength; texture: blue channel
+  float anisotropyRotation = 0.0F;  ///< radians, counter-clockwise from the tangent
+  TextureSlot anisotropyTexture;    ///< red, green: direction in [-1, 1]²
   bool unlit = false;
   AlphaMode alphaMode = AlphaMode::Opaque;
   float alphaCutoff = 0.5F;
@@ -197,7 +217,7 @@ struct Scene {
   std::string file;
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;   ///< unit; (0,0,0): this vertex has none, use the geometric normal
-  std::vector<glm::vec4> tangents;  ///< xyz unit, w = ±1; kept only when a material has a normal map
+  std::vector<glm::vec4> tangents;  ///< xyz unit, w = ±1; kept only when a material is laid along them
   std::vector<glm::vec2> uv0;       ///< kept only when a texture uses it
   std::vector<glm::vec2> uv1;
   std::vector<glm::vec4> colors;  ///< linear RGBA, multiplies baseColor; (1,1,1,1) where a mesh has none

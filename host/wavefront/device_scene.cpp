@@ -215,7 +215,8 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   if (features.has(Feature::VERTEX_NORMALS))
     d.normals = uploadVertices(compute, "normals", scene.normals, pruned);
   if (consumed) freeArray(consumed->normals);
-  if (features.has(Feature::NORMAL_TEXTURE))
+  const bool laysLayers = features.has(Feature::CLEARCOAT) || features.has(Feature::ANISOTROPY);
+  if (features.has(Feature::NORMAL_TEXTURE) || (laysLayers && !scene.tangents.empty()))
     d.tangents = uploadVertices(compute, "tangents", scene.tangents, pruned);
   if (consumed) freeArray(consumed->tangents);
   if (features.has(Feature::UV0)) d.uv0 = uploadVertices(compute, "uv0", scene.uv0, pruned);

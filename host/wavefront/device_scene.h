@@ -35,7 +35,8 @@ inline constexpr std::uint64_t kSceneBufferFeatures =
     bitOf(Feature::TREE) | bitOf(Feature::PACKETS) | bitOf(Feature::VERTEX_NORMALS) |
     bitOf(Feature::TEXTURES) | bitOf(Feature::VERTEX_COLORS) | bitOf(Feature::NORMAL_TEXTURE) |
     bitOf(Feature::UV0) | bitOf(Feature::UV1) | bitOf(Feature::BACKGROUND_MAP) |
-    bitOf(Feature::SURFACE_LIGHTS) | bitOf(Feature::SKY_LIGHTS);
+    bitOf(Feature::SURFACE_LIGHTS) | bitOf(Feature::SKY_LIGHTS) | bitOf(Feature::CLEARCOAT) |
+    bitOf(Feature::ANISOTROPY);
 
 /// Uploads of `pruned` what `features` needs. Throws ClError naming the buffer that does not fit. The
 /// tree's nodes are let go where a wider tree takes their place.

@@ -2,7 +2,7 @@
 // what a person calls it. The host hands the kernels ONE number (-D SCENE_FEATURES=0x…); kernels ask by
 // name: `#if HAS(EMISSION)`. Left out, everything is on, so that any kernel file compiles by itself. For
 // the host cmake/feature_list.cmake turns these lines into WHITTLE_FEATURES(X), with X(NAME, bit, "what a
-// person calls it").
+// person calls it"). All 64 bits are taken: see "Add a material extension" in host/README.md.
 #ifndef WHITTLE_FEATURES_H
 #define WHITTLE_FEATURES_H
 
@@ -64,12 +64,16 @@
 #define BIT_GLOSS 55                       // glossy impulses
 #define BIT_SURFACE_LIGHTS 56              // surface lights
 #define BIT_TEXTURE_LEVELS 57              // texture levels
+#define BIT_CLEARCOAT 58                   // clear coats
+#define BIT_SHEEN 59                       // sheen
 #define BIT_SKY_LIGHTS 60                  // sky lights
 #define BIT_TERMINATOR 61                  // smooth terminator
+#define BIT_IRIDESCENCE 62                 // iridescence
+#define BIT_ANISOTROPY 63                  // anisotropy
 
 #ifdef __OPENCL_VERSION__
 #ifndef SCENE_FEATURES
-#define SCENE_FEATURES 0x7fffffffffffffff  // preprocessor arithmetic is 64 bits wide
+#define SCENE_FEATURES 0xffffffffffffffff  // preprocessor arithmetic is 64 bits wide, without a sign for such a number
 #endif
 #define HAS(feature) ((SCENE_FEATURES >> BIT_##feature) & 1)
 #else

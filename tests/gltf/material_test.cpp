@@ -105,6 +105,65 @@ TEST(GltfMaterial, GlossinessOfATextureBecomesRoughness) {
   }
 }
 
+TEST(GltfMaterial, LayersAndFacets) {
+  const Material plain = materialOf(Json::object());
+  EXPECT_EQ(plain.clearcoat, 0.0F);
+  EXPECT_EQ(plain.sheenColor, glm::vec3(0));
+  EXPECT_EQ(plain.iridescence, 0.0F);
+  EXPECT_EQ(plain.iridescenceIor, 1.3F);
+  EXPECT_EQ(plain.leastThickness, 100.0F);
+  EXPECT_EQ(plain.mostThickness, 400.0F);
+  EXPECT_EQ(plain.anisotropy, 0.0F);
+  const Json slot = {{"index", 0}, {"texCoord", 1}};
+  GltfBuilder b = textured(
+      {{"extensions",
+        {{"KHR_materials_clearcoat",
+          {{"clearcoatFactor", 0.5},
+           {"clearcoatTexture", slot},
+           {"clearcoatRoughnessFactor", 0.25},
+           {"clearcoatRoughnessTexture", slot},
+           {"clearcoatNormalTexture", {{"index", 0}, {"scale", 0.75}}}}},
+         {"KHR_materials_sheen",
+          {{"sheenColorFactor", {0.25, 0.5, 1}},
+           {"sheenColorTexture", slot},
+           {"sheenRoughnessFactor", 0.75},
+           {"sheenRoughnessTexture", slot}}},
+         {"KHR_materials_iridescence",
+          {{"iridescenceFactor", 1},
+           {"iridescenceTexture", slot},
+           {"iridescenceIor", 1.75},
+           {"iridescenceThicknessMinimum", 50},
+           {"iridescenceThicknessMaximum", 700},
+           {"iridescenceThicknessTexture", slot}}},
+         {"KHR_materials_anisotropy",
+          {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 2.5}, {"anisotropyTexture", slot}}}}}});
+  const Scene scene = b.load();
+  EXPECT_TRUE(b.notices.warnings.empty());
+  EXPECT_FALSE(mentions(b.notices.notes, "not read"));
+  const Material& m = scene.materials.at(0);
+  EXPECT_EQ(m.clearcoat, 0.5F);
+  EXPECT_EQ(m.clearcoatRoughness, 0.25F);
+  EXPECT_EQ(m.clearcoatNormalScale, 0.75F);
+  EXPECT_EQ(m.sheenColor, glm::vec3(0.25F, 0.5F, 1));
+  EXPECT_EQ(m.sheenRoughness, 0.75F);
+  EXPECT_EQ(m.iridescence, 1.0F);
+  EXPECT_EQ(m.iridescenceIor, 1.75F);
+  EXPECT_EQ(m.leastThickness, 50.0F);
+  EXPECT_EQ(m.mostThickness, 700.0F);
+  EXPECT_EQ(m.anisotropy, 0.5F);
+  EXPECT_EQ(m.anisotropyRotation, 2.5F);
+  for (const auto read :
+       {&Material::clearcoatTexture, &Material::clearcoatRoughnessTexture, &Material::sheenColorTexture,
+        &Material::sheenRoughnessTexture, &Material::iridescenceTexture,
+        &Material::iridescenceThicknessTexture, &Material::anisotropyTexture}) {
+    EXPECT_TRUE((m.*read).used());
+    EXPECT_EQ((m.*read).uvSet, 1);
+  }
+  EXPECT_EQ(m.clearcoatNormalTexture.uvSet, 0);
+  EXPECT_TRUE(m.clearcoatNormalTexture.used());
+  EXPECT_FALSE(scene.tangents.empty()) << "coat and grain are laid along them";
+}
+
 TEST(GltfMaterial, CoreFactors) {
   const Material m = materialOf(
       {{"name", "paint"},

@@ -78,5 +78,15 @@ TEST(DeviceGloss, AgreesWithTheReference) {
     }
 }
 
+/// Light from all sides is shared between what a rough surface spreads and its impulses.
+TEST(DeviceGloss, AgreesWithTheReferenceInAmbientLight) {
+  Scene scene = ownScene("cornell_box");
+  for (Material& m : scene.materials) m.roughness = std::max(m.roughness, 0.35F), m.specular = 1;
+  Settings settings = smallSettings(2);
+  settings.glossy = true;
+  settings.ambient = 0.5F;
+  expectAgreement(compareWithReference(scene, settings), "ambient", 1);
+}
+
 }  // namespace
 }  // namespace whittle::test

@@ -14,7 +14,7 @@
 
 namespace whittle::test {
 
-inline constexpr std::uint64_t kAllFeatures = 0x7fffffffffffffffU;
+inline constexpr std::uint64_t kAllFeatures = 0xffffffffffffffffU;
 inline constexpr int kWorkGroup = 16;  ///< the renderer's on a CPU; not a divisor of most counts used here
 
 inline std::string buildOptions(std::uint64_t features, int compactChunk) {

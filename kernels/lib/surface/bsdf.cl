@@ -1,5 +1,6 @@
 // Scattering at surfels: the finite part (Lambert and the glTF microfacet lobe) for direct light, and the impulses
-// (mirror reflection, refraction, straight transmission). Formulas: host/reference/README.md.
+// (mirror reflection, refraction, straight transmission); then the layers over them. Formulas:
+// host/reference/README.md.
 #include "lib/surface/fresnel.cl"
 #include "lib/surface/surfel.cl"
 
@@ -24,8 +25,8 @@ INLINE Real3 schlick(Real3 f0, Real3 f90, Real cosine) {
   return add3(f0, scale3(schlickWeight(cosine), sub3(f90, f0)));
 }
 
-/// Dielectric reflectance seen along w_o; total: set at total reflection.
-INLINE Real3 dielectricReflectance(const Surfel* s, Real cosine, Mask* total) {
+/// Dielectric reflectance seen along w_o, without a film; total: set at total reflection.
+INLINE Real3 clearReflectance(const Surfel* s, Real cosine, Mask* total) {
   const Real ratio = (s->ior - 1.0f) / (s->ior + 1.0f);
   const Real r0 = ratio * ratio;
   const Mask opaque = (s->ior == 0.0f) | (r0 >= 1.0f);
@@ -47,15 +48,58 @@ INLINE Real3 dielectricReflectance(const Surfel* s, Real cosine, Mask* total) {
 #endif
 }
 
-/// Of GGX; a mirror's lobe would be 0/0.
-INLINE Real microfacetAlpha(const Surfel* s) {
-  const Real squared = s->roughness * s->roughness;
-  return squared > 1e-3f ? squared : (Real)(1e-3f);
+/// Dielectric reflectance seen along w_o; total: set at total reflection.
+INLINE Real3 dielectricReflectance(const Surfel* s, Real cosine, Mask* total) {
+  const Real3 r = clearReflectance(s, cosine, total);
+#if HAS(IRIDESCENCE)
+  return choose3(*total, r, belowFilm(&s->film, cosine, s->specularF0, r));
+#else
+  return r;
+#endif
 }
 
-/// f(w_i, w_o), 1/sr, without impulses; both directions on the side of n. light: LIGHT_…, since what glossy surfaces
-/// reflect of surfaces that glow and of the sky is in their impulses.
-INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i, uint light) {
+INLINE Facets facetsOf(const Surfel* s) {
+  Facets facets = facetsAbout(s->n, s->roughness);
+#if HAS(ANISOTROPY)
+  facets.tangent = s->grain;
+  facets.along = facets.alpha + (1.0f - facets.alpha) * s->stretch;
+#endif
+  return facets;
+}
+
+/// Reflectance of rough dielectrics and of metals at that angle to a facet.
+INLINE Real3 facetReflectance(const Surfel* s, Real cosine) {
+  const Real3 r = schlick(s->specularF0, real3(s->specularF90, s->specularF90, s->specularF90), cosine);
+#if HAS(IRIDESCENCE)
+  return belowFilm(&s->film, cosine, s->specularF0, r);
+#else
+  return r;
+#endif
+}
+INLINE Real3 metalReflectance(const Surfel* s, Real cosine) {
+  const Real3 r = schlick(s->baseColor, same3((float3)(1.0f)), cosine);
+#if HAS(IRIDESCENCE)
+  return belowFilm(&s->film, cosine, s->baseColor, r);
+#else
+  return r;
+#endif
+}
+
+/// What of light that goes one way or the other the layers over the surface leave to it.
+INLINE Real belowLayers(const Surfel* s, Real cosO, Real cosI) {
+  Real kept = (Real)(1.0f);
+#if HAS(SHEEN)
+  kept = belowSheen(&s->sheen, sheenAlbedoBetween(&s->sheen, cosO, cosI));
+#endif
+#if HAS(CLEARCOAT)
+  kept *= 1.0f - s->coat.reflectance;
+#endif
+  return kept;
+}
+
+/// f(w_i, w_o), 1/sr, without impulses and layers; both directions on the side of n. light: LIGHT_…, since what glossy
+/// surfaces reflect of surfaces that glow and of the sky is in their impulses.
+INLINE Real3 baseScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i, uint light) {
   const Real cosO = dot3(s->n, w_o);
   const Real dielectric = 1.0f - s->metallic;
   const Real3 diffuse = scale3(1.0f - s->transmission, scale3((Real)(1.0f / PI), s->baseColor));
@@ -63,25 +107,18 @@ INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s,
   Real3 f = scale3(dielectric, diffuse);
 #if HAS(MICROFACET)
   if (some(!smooth)) {
-    const Real cosI = dot3(s->n, w_i);
     const Real3 h = normalize3(add3(w_i, w_o));
-    const Real cosH = dot3(s->n, h);
     const Real cosD = clampUnit(dot3(w_o, h));
-    const Real alpha = microfacetAlpha(s);
-    const Real a2 = alpha * alpha;
-    const Real k = cosH * cosH * (a2 - 1.0f) + 1.0f;
-    const Real distribution = a2 / (PI * k * k);
-    const Real visibility = 0.5f /
-                            (cosI * sqrt(a2 + (1.0f - a2) * cosO * cosO) + cosO * sqrt(a2 + (1.0f - a2) * cosI * cosI));
-    Real lobe = distribution * visibility;
+    const Facets facets = facetsOf(s);
+    Real lobe = facetLobe(&facets, w_o, w_i, h);
 #if HAS(GLOSS) && (HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS))
     if (light == LIGHT_SURFACE || light == LIGHT_SKY) lobe = isGlossy(constants, s) ? (Real)(0.0f) : lobe;
 #endif
-    const Real3 fresnel = schlick(s->specularF0, real3(s->specularF90, s->specularF90, s->specularF90), cosD);
+    const Real3 fresnel = facetReflectance(s, cosD);
     const Real largest = largestOfThree(fresnel.x, fresnel.y, fresnel.z);
     f = scale3(dielectric, add3(scale3(1.0f - largest, diffuse), scale3(lobe, fresnel)));
 #if HAS(METAL)
-    f = add3(f, scale3(lobe, scale3(s->metallic, schlick(s->baseColor, same3((float3)(1.0f)), cosD))));
+    f = add3(f, scale3(lobe, scale3(s->metallic, metalReflectance(s, cosD))));
 #endif
   }
 #endif
@@ -94,10 +131,31 @@ INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s,
   return f;
 }
 
+/// The same with the layers above.
+INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i, uint light) {
+  Real3 f = baseScattering(constants, s, w_o, w_i, light);
+#if HAS(SHEEN) || HAS(CLEARCOAT)
+  const Real3 h = normalize3(add3(w_i, w_o));
+  const Real cosI = dot3(s->n, w_i);
+#endif
+#if HAS(SHEEN)
+  if (some(s->sheen.largest > 0.0f)) {
+    const Real cosO = dot3(s->n, w_o), albedo = sheenAlbedoBetween(&s->sheen, cosO, cosI);
+    const Real fibres = sheenLobe(&s->sheen, cosO, cosI, dot3(s->n, h), albedo);
+    f = add3(scale3(belowSheen(&s->sheen, albedo), f), scale3(fibres, s->sheen.color));
+  }
+#endif
+#if HAS(CLEARCOAT)
+  const Real coat = coatLobe(constants, &s->coat, w_o, w_i, h, cosI, light);
+  f = add3(scale3(1.0f - s->coat.reflectance, f), real3(coat, coat, coat));
+#endif
+  return f;
+}
+
 #if HAS(AMBIENT)
 /// What surfels send back of radiance 1 from all sides: Lambert's part, and where they are rough their metal. What
-/// smooth ones reflect is in their impulses.
-INLINE Real3 ambientReflectance(const RenderConstants* constants, const Surfel* s, Real3 w_o) {
+/// impulses reflect, of smooth ones and with GLOSS of all, is not in it.
+INLINE Real3 baseAmbient(const RenderConstants* constants, const Surfel* s, Real3 w_o) {
   const Mask smooth = isSmooth(constants, s);
   const Real matte = (1.0f - s->metallic) * (1.0f - s->transmission);
 #if HAS(GLOSS)
@@ -106,12 +164,27 @@ INLINE Real3 ambientReflectance(const RenderConstants* constants, const Surfel* 
   const Mask reflects = smooth;
 #endif
   Real3 share = scale3(reflects ? matte : matte + s->metallic, s->baseColor);
-  if (some(smooth)) {
+  if (some(reflects)) {
     const Real cosO = dot3(s->n, w_o);
     Mask total;
     const Real3 r = dielectricReflectance(s, cosO < 1.0f ? cosO : (Real)(1.0f), &total);
-    share = choose3(smooth, mul3(real3(1.0f - r.x, 1.0f - r.y, 1.0f - r.z), share), share);
+    share = choose3(reflects, mul3(real3(1.0f - r.x, 1.0f - r.y, 1.0f - r.z), share), share);
   }
+  return share;
+}
+
+/// The same with the layers above.
+INLINE Real3 ambientReflectance(const RenderConstants* constants, const Surfel* s, Real3 w_o) {
+  Real3 share = baseAmbient(constants, s, w_o);
+#if HAS(SHEEN)
+  const Real cosO = dot3(s->n, w_o), albedo = sheenAlbedo(&s->sheen, cosO);
+  const Real scattered = albedo < 1.0f ? albedo : (Real)(1.0f);
+  share = add3(scale3(belowSheen(&s->sheen, albedo), share), scale3(scattered, s->sheen.color));
+#endif
+#if HAS(CLEARCOAT)
+  const Real coat = coatReflects(constants, &s->coat) ? (Real)(0.0f) : s->coat.reflectance;
+  share = add3(scale3(1.0f - s->coat.reflectance, share), real3(coat, coat, coat));
+#endif
 #if HAS(UNLIT)
   return choose3((s->flags & MATERIAL_UNLIT) != 0, same3((float3)(0.0f)), share);
 #else
@@ -127,37 +200,6 @@ typedef struct {
   Mask straight;  // goes on as the ray came; known with STRAIGHT
 } Impulse;
 
-#if HAS(GLOSS)
-/// The normal of a microfacet that w_o sees, sampled by how much of w_o each takes up (Heitz 2018; by spherical caps,
-/// Dupuy and Benyoub 2023).
-INLINE Real3 visibleNormal(const Surfel* s, Real3 w_o, Square at) {
-  const Real alpha = microfacetAlpha(s);
-  Real3 right, up;
-  basisAbout(s->n, &right, &up);
-  const Real3 seen = normalize3(real3(alpha * dot3(right, w_o), alpha * dot3(up, w_o), dot3(s->n, w_o)));
-  Real cosine, sine;
-  aroundCircle(at.u, &cosine, &sine);
-  const Real z = (1.0f - at.v) * (1.0f + seen.z) - seen.z;
-  const Real across2 = 1.0f - z * z, across = sqrt(across2 > 0.0f ? across2 : (Real)(0.0f));
-  const Real x = across * cosine + seen.x, y = across * sine + seen.y;
-  return normalize3(add3(add3(scale3(alpha * x, right), scale3(alpha * y, up)), scale3(z + seen.z, s->n)));
-}
-
-/// sqrt(1 + alpha² tan²) of the angle to n: 1 + 2 Λ of Smith's shadowing (Heitz 2014).
-INLINE Real smithRoot(const Surfel* s, Real3 w) {
-  const Real alpha = microfacetAlpha(s), cosine = dot3(s->n, w), c2 = cosine * cosine;
-  const Real s2 = 1.0f - c2;
-  return sqrt(1.0f + alpha * alpha * (s2 > 0.0f ? s2 : (Real)(0.0f)) / c2);
-}
-
-/// What is left of a reflection along a sampled normal, G2/G1 of height-correlated Smith; 0 below the surface.
-INLINE Real reflectionWeight(const Surfel* s, Real3 w_o, Real3 w_i) {
-  const Real o = smithRoot(s, w_o), i = smithRoot(s, w_i);
-  const Mask above = (dot3(s->n, w_i) > 0.0f) & (dot3(s->n_g, w_i) > 0.0f);
-  return above ? (1.0f + o) / (o + i) : (Real)(0.0f);
-}
-#endif
-
 #if HAS(MIRROR) || HAS(REFRACTION)
 /// n: of the surface, or of a microfacet.
 INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, Real3 n, Real3 w_o, Real cosine,
@@ -169,13 +211,14 @@ INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, 
   impulse.w_i = normalize3(choose3(dot3(s->n_g, aboutN) > 0.0f, aboutN, aboutG));
   Real3 magnitude = scale3(1.0f - s->metallic, reflectance);
 #if HAS(METAL)
-  magnitude = add3(magnitude, scale3(s->metallic, schlick(s->baseColor, same3((float3)(1.0f)), cosine)));
+  magnitude = add3(magnitude, scale3(s->metallic, metalReflectance(s, cosine)));
 #endif
   Mask reflects = isSmooth(constants, s) | inside;
 #if HAS(GLOSS)
   const Mask glossy = isGlossy(constants, s);
+  const Facets facets = facetsOf(s);
   impulse.w_i = choose3(glossy, aboutN, impulse.w_i);
-  magnitude = choose3(glossy, scale3(reflectionWeight(s, w_o, aboutN), magnitude), magnitude);
+  magnitude = choose3(glossy, scale3(reflectionWeight(&facets, s->n_g, w_o, aboutN), magnitude), magnitude);
   reflects = reflects | glossy;
 #endif
   impulse.magnitude = choose3(reflects, scale3(s->alpha, magnitude), same3((float3)(0.0f)));
@@ -215,7 +258,8 @@ INLINE Impulse transmissionImpulse(const RenderConstants* constants, const Surfe
   // Behind a microfacet; what does not come out behind the surface is lost. Smith's G1 of the way there.
   const Mask glossy = isGlossy(constants, s);
   w_t = choose3((dot3(s->n_g, w_t) < 0.0f) | glossy, w_t, refracted(s->n_g, w_o, eta));
-  const Real kept = dot3(s->n, w_t) < 0.0f ? 2.0f / (1.0f + smithRoot(s, w_t)) : (Real)(0.0f);
+  const Facets facets = facetsOf(s);
+  const Real kept = dot3(s->n, w_t) < 0.0f ? 2.0f / (1.0f + smithRoot(&facets, w_t)) : (Real)(0.0f);
   impulse.magnitude = choose3(glossy & bends, scale3(kept, impulse.magnitude), impulse.magnitude);
 #else
   w_t = choose3(dot3(s->n_g, w_t) < 0.0f, w_t, refracted(s->n_g, w_o, eta));
@@ -228,6 +272,33 @@ INLINE Impulse transmissionImpulse(const RenderConstants* constants, const Surfe
   impulse.w_i = choose3(s->transmission > 0.0f, impulse.w_i, minus3(w_o));
   impulse.magnitude = choose3(s->transmission > 0.0f, impulse.magnitude, zero);
   return impulse;
+}
+#endif
+
+#if HAS(SHEEN) || HAS(CLEARCOAT)
+/// What layers leave of the reflection and the transmission below them, and the coat's own reflection: with the one
+/// below it where both go the same way, and where a third impulse leaves no room for two.
+INLINE void addLayers(const RenderConstants* constants, const Surfel* s, Real3 w_o, Square facets, Impulse* reflection,
+                      Impulse* transmission) {
+  const Real cosO = dot3(s->n, w_o);
+  reflection->magnitude = scale3(belowLayers(s, cosO, dot3(s->n, reflection->w_i)), reflection->magnitude);
+  transmission->magnitude = scale3(belowLayers(s, cosO, cosO), transmission->magnitude);
+#if HAS(CLEARCOAT) && HAS(MIRROR)
+  Real magnitude;
+  const Real3 w_i = coatDirection(constants, &s->coat, s->n_g, w_o, facets, &magnitude);
+  const Real carried = s->alpha * magnitude;
+  const Real3 coat = real3(carried, carried, carried);
+  const Mask both = (carried > 0.0f) & anyPositive(reflection->magnitude);
+  const Mask alike = isSmooth(constants, s) & isSmoothCoat(constants, &s->coat) & (s->n.x == s->coat.n.x) &
+                     (s->n.y == s->coat.n.y) & (s->n.z == s->coat.n.z);
+  const Mask full = (s->alpha < 1.0f) | anyPositive(transmission->magnitude);
+  const Mask apart = both & !alike & !full;
+  transmission->w_i = choose3(apart, reflection->w_i, transmission->w_i);
+  transmission->magnitude = choose3(apart, reflection->magnitude, transmission->magnitude);
+  transmission->straight = transmission->straight & !apart;
+  reflection->w_i = choose3((carried > 0.0f) & (apart | !both), w_i, reflection->w_i);
+  reflection->magnitude = choose3(apart, coat, add3(reflection->magnitude, coat));
+#endif
 }
 #endif
 
@@ -245,7 +316,8 @@ INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 
   Mask asked = isSmooth(constants, s) | (s->transmission > 0.0f);
 #if HAS(GLOSS)
   const Mask glossy = isGlossy(constants, s);
-  n = choose3(glossy, visibleNormal(s, w_o, facets), n);
+  const Facets rough = facetsOf(s);
+  n = choose3(glossy, visibleNormal(&rough, w_o, facets), n);
   asked = asked | glossy;
 #endif
   if (some(asked)) {
@@ -256,8 +328,7 @@ INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 
 #if HAS(GLOSS)
     // As its highlight has it (finiteScattering).
     const Mask opaque = glossy & !(s->transmission > 0.0f);
-    const Real3 f90 = real3(s->specularF90, s->specularF90, s->specularF90);
-    reflectance = choose3(opaque, schlick(s->specularF0, f90, cosine), reflectance);
+    reflectance = choose3(opaque, facetReflectance(s, cosine), reflectance);
     total = total & !opaque;
 #endif
 #if HAS(MIRROR) || HAS(REFRACTION)
@@ -267,6 +338,9 @@ INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 
     if (some(s->transmission > 0.0f)) *second = transmissionImpulse(constants, s, n, w_o, reflectance);
 #endif
   }
+#if HAS(SHEEN) || HAS(CLEARCOAT)
+  addLayers(constants, s, w_o, facets, first, second);
+#endif
 #endif
   const Real straight = 1.0f - s->alpha;
   const Real3 straight3 = real3(straight, straight, straight);

@@ -1,6 +1,8 @@
 // The surfel of a hit: what shading needs to know of the surface, evaluated from vertices, material and textures.
 // Conventions: host/reference/README.md.
+#include "lib/surface/clearcoat.cl"
 #include "lib/surface/footprint.cl"
+#include "lib/surface/layers.cl"
 #include "lib/surface/material.cl"
 
 typedef struct {
@@ -20,6 +22,19 @@ typedef struct {
   Mask front;
   Natural flags;  // MATERIAL_…
   Real3 sigma_a;
+#if HAS(CLEARCOAT)
+  Coat coat;
+#endif
+#if HAS(SHEEN)
+  Sheen sheen;
+#endif
+#if HAS(IRIDESCENCE)
+  ThinFilm film;
+#endif
+#if HAS(ANISOTROPY)
+  Real3 grain;   // unit, across n: the direction along which facets are rougher; 0: there is none
+  Real stretch;  // by how much, in [0, 1]
+#endif
 #if HAS(TERMINATOR)
   Mask curved;  // the normals mean another surface than the triangle's plane
   Real3 lift;   // from the position to that surface, m
@@ -147,22 +162,31 @@ INLINE Real bendOf(const TrianglePoint* at, const CornerNormals* n, Real3 n_g) {
 #endif
 #endif
 
-#if HAS(TEXTURES) && HAS(NORMAL_TEXTURE)
-/// n tilted by the normal map; n itself where there is none or no tangent to lay it along.
-INLINE Real3 mappedNormal(const SceneView* scene, const TrianglePoint* at, Real3 n) {
-  const Natural slots = MATERIAL_BITS(at, normalTexture);
-  const Mask mapped = slots < 0x80000000u;
-  if (!scene->tangents || !some(mapped)) return n;
+/// Tangent and bitangent at a point, unit and across n; not finite where the mesh has none.
+typedef struct {
+  Real3 tangent, bitangent;
+} TangentFrame;
+
+INLINE TangentFrame tangentFrame(const SceneView* scene, const TrianglePoint* at, Real3 n) {
+  TangentFrame frame;
   const Real3 along = blend(at, gather3(scene->tangents, at->corner[0] * 4u),
                             gather3(scene->tangents, at->corner[1] * 4u), gather3(scene->tangents, at->corner[2] * 4u));
-  const Real3 tangent = normalize3(sub3(along, scale3(dot3(n, along), n)));
-  const Real3 bitangent = scale3(gather(scene->tangents + 3, at->corner[0] * 4u), cross3(n, tangent));
+  frame.tangent = normalize3(sub3(along, scale3(dot3(n, along), n)));
+  frame.bitangent = scale3(gather(scene->tangents + 3, at->corner[0] * 4u), cross3(n, frame.tangent));
+  return frame;
+}
+
+#if HAS(TEXTURES) && (HAS(NORMAL_TEXTURE) || HAS(CLEARCOAT))
+/// n tilted by a normal map (`slots` of it for each lane); n itself where there is none or no tangent to lay it along.
+INLINE Real3 mappedNormal(const SceneView* scene, const TrianglePoint* at, Real3 n, Natural slots, Real scale) {
+  const Mask mapped = slots < 0x80000000u;
+  if (!scene->tangents || !some(mapped)) return n;
+  const TangentFrame frame = tangentFrame(scene, at, n);
   const Rgba texel = textureAt(scene, at, slots, normalTextureEncoding);
-  const Real scale = MATERIAL(at, normalScale);
   const Real x = (texel.c[0] * 2.0f - 1.0f) * scale, y = (texel.c[1] * 2.0f - 1.0f) * scale,
              z = texel.c[2] * 2.0f - 1.0f;
-  const Real3 tilted = normalize3(add3(add3(scale3(x, tangent), scale3(y, bitangent)), scale3(z, n)));
-  return choose3(mapped & isFinite3(tangent) & isFinite3(tilted), tilted, n);
+  const Real3 tilted = normalize3(add3(add3(scale3(x, frame.tangent), scale3(y, frame.bitangent)), scale3(z, n)));
+  return choose3(mapped & isFinite3(frame.tangent) & isFinite3(tilted), tilted, n);
 }
 #endif
 
@@ -204,6 +228,12 @@ INLINE void materialAt(const SceneView* scene, const TrianglePoint* at, Surfel* 
   s->ior = MATERIAL(at, ior);
   s->sigma_a = MATERIAL3(at, sigma_a);
   specularReflectance(scene, at, s);
+#if HAS(SHEEN)
+  s->sheen = sheenAt(scene, at);
+#endif
+#if HAS(IRIDESCENCE)
+  s->film = filmAt(scene, at);
+#endif
   s->emission = same3((float3)(0.0f));
 #if HAS(EMISSION)
   Real3 emission = MATERIAL3(at, emission);
@@ -214,6 +244,61 @@ INLINE void materialAt(const SceneView* scene, const TrianglePoint* at, Surfel* 
   s->emission = choose3(s->front | ((s->flags & MATERIAL_DOUBLE_SIDED) != 0), emission, s->emission);
 #endif
 }
+
+/// A shading normal of the front side, as the viewer along d sees it.
+INLINE Real3 turnedToViewer(const Surfel* s, Real3 n, Real3 d) {
+  n = choose3(s->front, n, minus3(n));
+  return choose3(dot3(n, d) < 0.0f, n, s->n_g);
+}
+
+#if HAS(CLEARCOAT)
+/// The coat, which dims what the surface gives off; there is none on the inside of a solid. n: of the front side,
+/// before the surface's own normal map.
+INLINE void addCoat(const SceneView* scene, const TrianglePoint* at, Real3 n, Real3 d, Surfel* s) {
+  Real share = MATERIAL(at, clearcoat), roughness = MATERIAL(at, clearcoatRoughness);
+#if HAS(TEXTURES)
+  const Rgba covered = TEXTURE_AT(scene, at, clearcoatTexture),
+             rough = TEXTURE_AT(scene, at, clearcoatRoughnessTexture);
+  share *= covered.c[0];
+  roughness *= rough.c[1];
+  n = mappedNormal(scene, at, n, MATERIAL_BITS(at, clearcoatNormalTexture), MATERIAL(at, clearcoatNormalScale));
+#endif
+  const Mask outside = s->front | ((s->flags & MATERIAL_VOLUME) == 0);
+  share = outside ? share : (Real)(0.0f);
+  s->coat = coatOf(turnedToViewer(s, n, d), d, share, roughness);
+  s->emission = scale3(1.0f - s->coat.reflectance, s->emission);
+}
+#endif
+
+#if HAS(ANISOTROPY)
+/// The direction of the facets; n: of the front side, before the normal map.
+INLINE void addGrain(const SceneView* scene, const TrianglePoint* at, Real3 n, Surfel* s) {
+  s->grain = same3((float3)(0.0f));
+  s->stretch = (Real)(0.0f);
+#if HAS(VERTEX_NORMALS) || HAS(VERTEX_COLORS) || HAS(TEXTURES)  // else no corner is known, nor has any a tangent
+  Real strength = MATERIAL(at, anisotropy);
+  if (!scene->tangents || !some(strength > 0.0f)) return;
+  Real x = (Real)(1.0f), y = (Real)(0.0f);
+#if HAS(TEXTURES)
+  const Mask textured = MATERIAL_BITS(at, anisotropyTexture) < 0x80000000u;
+  const Rgba texel = TEXTURE_AT(scene, at, anisotropyTexture);
+  x = textured ? texel.c[0] * 2.0f - 1.0f : x;
+  y = textured ? texel.c[1] * 2.0f - 1.0f : y;
+  strength *= texel.c[2];
+#endif
+  Real cosine, sine;
+  aroundCircle(MATERIAL(at, anisotropyRotation) * (0.5f / PI), &cosine, &sine);
+  const TangentFrame frame = tangentFrame(scene, at, n);
+  const Real3 turned = add3(scale3(x * cosine - y * sine, frame.tangent),
+                            scale3(x * sine + y * cosine, frame.bitangent));
+  const Real3 grain = normalize3(sub3(turned, scale3(dot3(s->n, turned), s->n)));
+  const Mask directed = isFinite3(grain) & (strength > 0.0f);
+  strength = clampUnit(strength);
+  s->grain = choose3(directed, grain, s->grain);
+  s->stretch = directed ? strength * strength : s->stretch;
+#endif
+}
+#endif
 
 /// The surfel at the hit (triangle, t, b1, b2) of the ray o + t d.
 INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, Real3 d, Real t, Real b1, Real b2,
@@ -258,12 +343,20 @@ INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, R
 #endif
   }
 #endif
+#if HAS(CLEARCOAT) || HAS(ANISOTROPY)
+  const Real3 unmapped = n;
+#endif
 #if HAS(TEXTURES) && HAS(NORMAL_TEXTURE)
-  n = mappedNormal(scene, &at, n);
+  n = mappedNormal(scene, &at, n, MATERIAL_BITS(&at, normalTexture), MATERIAL(&at, normalScale));
 #endif
   s.n_g = choose3(s.front, n_g, minus3(n_g));
-  n = choose3(s.front, n, minus3(n));
-  s.n = choose3(dot3(n, d) < 0.0f, n, s.n_g);
+  s.n = turnedToViewer(&s, n, d);
   materialAt(scene, &at, &s);
+#if HAS(CLEARCOAT)
+  addCoat(scene, &at, unmapped, d, &s);
+#endif
+#if HAS(ANISOTROPY)
+  addGrain(scene, &at, unmapped, &s);
+#endif
   return s;
 }

@@ -34,6 +34,8 @@ RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const Floa
   hooks.timeStages = o.profile || trace || !o.stats.empty();
   hooks.trace = trace;
   hooks.compiler = "/proc/self/exe";
+  hooks.tier = o.tier;
+  hooks.picturesToCome = o.picturesToCome;
   hooks.consumed = &scene;
   std::future<void> codec;  // loaded while kernels are compiled
   hooks.phase = [&](const std::string& text) {
@@ -88,6 +90,8 @@ std::string statsText(const RenderOptions& o, const Stats& stats) {
   s["trace"] = path(o.trace);
   s["reference"] = path(o.reference);
   s["kernels"] = path(o.kernelFolder);
+  for (const auto& [word, tier] : kTierWords)
+    if (tier == o.tier) s["tier"] = word;
   s["quiet"] = o.scene.quiet;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -14,6 +14,7 @@
 #include "cli/frames.h"
 #include "cli/options.h"
 #include "render/render_session.h"
+#include "render/renderer.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
@@ -29,8 +30,10 @@ struct RenderOptions {
   bool withReference = false;         ///< --explain beside the reference
   bool json = false;
   bool profile = false;
+  Tier tier = Tier::Auto;
   FrameOptions frames;
-  std::string what = {};  ///< is drawn, of several pictures
+  int picturesToCome = 0;  ///< of several
+  std::string what = {};   ///< is drawn, of several pictures
 
   std::vector<AovOutput> aovs;  ///< aovTexts, parsed
 };

@@ -55,6 +55,7 @@ Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo&
   d.camera = findCamera(scene, settings.camera);
   d.pruned = pruneScene(scene, settings, texels);
   d.features = SceneFeatures::analyse(scene, d.pruned, settings, {device.suitsPackets()});
+  d.buffers = SceneFeatures::ofBits(d.features.bits());
   d.compactChunk = defaultCompactChunk(device);
   d.workGroup = settings.workGroup > 0 ? settings.workGroup : defaultWorkGroup(d.features);
   if (static_cast<std::uint64_t>(d.workGroup) > device.maxWorkGroup)
@@ -97,7 +98,7 @@ void PictureBuffers::report(std::vector<BufferStats>& out) const {
 
 TriTree buildTree(const Scene& scene, const Decisions& decisions) {
   TriTree tree;
-  if (decisions.features.has(Feature::TREE)) {
+  if (decisions.buffers.has(Feature::TREE)) {
     std::vector<glm::uvec3> corners;
     corners.reserve(scene.triangles.size());
     for (const auto& t : scene.triangles) corners.emplace_back(t.v0, t.v1, t.v2);
@@ -118,8 +119,9 @@ std::uint32_t queueCapacity(const Settings& s) {
 
 SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
                            const Decisions& decisions, TriTree tree, Scene* consumed) {
-  return {uploadScene(compute, scene, decisions.pruned, std::move(tree), decisions.features, consumed),
-          RayQueues(compute, decisions.features, queueCapacity(settings), decisions.compactChunk)};
+  return {uploadScene(compute, scene, decisions.pruned, std::move(tree), decisions.buffers, consumed),
+          RayQueues(compute, decisions.features, decisions.buffers, queueCapacity(settings),
+                    decisions.compactChunk)};
 }
 
 void SceneBuffers::report(std::vector<BufferStats>& out) const {

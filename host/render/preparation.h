@@ -34,6 +34,8 @@ struct Decisions {
   std::size_t camera = 0;  ///< of Scene::cameras
   PrunedScene pruned;      ///< what goes to the device
   SceneFeatures features;
+  /// Whose buffers there are: `features`, and generalBufferFeatures where a general program starts.
+  SceneFeatures buffers;
   std::uint32_t compactChunk = 0;
   int workGroup = 0;
 };

@@ -146,8 +146,13 @@ double SamplingLoop::endedPerSample() const {
   return counts_.total() == 0 ? 0.0 : endedInAll(wavefront_.tally()) / static_cast<double>(counts_.total());
 }
 
+double SamplingLoop::secondsLeft() const {
+  return samplesDone_ > 0.0 ? elapsed() * std::max(0.0, expectedSamples() / samplesDone_ - 1.0) : 0.0;
+}
+
 bool SamplingLoop::keepGoing(double samplesOfPass, bool betweenBatches) {
-  reportProgress(static_cast<double>(counts_.total()) + samplesOfPass);
+  samplesDone_ = static_cast<double>(counts_.total()) + samplesOfPass;
+  reportProgress(samplesDone_);
   if (hooks_.keepGoing && !hooks_.keepGoing()) return false;
   const double limit = settings_.timeLimit, now = elapsed();
   if (limit <= 0.0 || now <= limit) return true;

@@ -36,6 +36,8 @@ class SamplingLoop {
 
   const SampleCounts& counts() const { return counts_; }
   double seconds() const { return seconds_ > 0.0 ? seconds_ : elapsed(); }  ///< that run took, or has so far
+  /// That it will go on for, by what it has done since it began; 0 before that says anything.
+  double secondsLeft() const;
   const std::vector<ErrorPoint>& error() const { return error_; }
   /// The picture, after run.
   FloatImage picture();
@@ -74,6 +76,7 @@ class SamplingLoop {
   double seconds_ = 0.0;
   double passSeconds_ = 0.0;       ///< the last uniform pass
   std::uint32_t passSamples_ = 0;  ///< of each pixel, then
+  double samplesDone_ = 0.0;       ///< a pass under way counts in part
   bool saidLate_ = false;
   std::vector<double> variances_;  ///< of blocks, at the last look
   double endedShare_ = 0.0;        ///< bound on endedPerSample for passes of some blocks only

@@ -143,6 +143,12 @@ ForcedFeatures forcedFeatures(const Settings& settings, std::uint64_t used) {
   return forced;
 }
 
+std::uint64_t barredBits(const Settings& settings) {
+  std::uint64_t bits = 0;
+  for (const auto& [feature, reason] : barredFeatures(settings)) bits |= bitOf(feature);
+  return bits;
+}
+
 std::vector<std::string> uselessKeeps(const Settings& settings) {
   std::vector<std::string> lines;
   const auto barred = barredFeatures(settings);

@@ -26,6 +26,9 @@ struct ForcedFeatures {
 /// What settings.keepFeatures adds to `used`, with what those features need. Nothing goes against a setting.
 ForcedFeatures forcedFeatures(const Settings& settings, std::uint64_t used);
 
+/// Features that go against a setting, and those that are nothing without them.
+std::uint64_t barredBits(const Settings& settings);
+
 /// A line for each of settings.keepFeatures that adds nothing, with the reason.
 std::vector<std::string> uselessKeeps(const Settings& settings);
 

@@ -33,13 +33,19 @@ bool lock(int file, off_t slot, short type, int command) {
 
 bool isBusy() { return errno == EAGAIN || errno == EACCES; }
 
+std::filesystem::path poclFolder() {
+  const char* const folder = std::getenv("POCL_CACHE_DIR");
+  return folder ? folder : "";
+}
+
 }  // namespace
 
-CompileTurn::CompileTurn(const std::string& key)
+CompileTurn::CompileTurn(const std::string& key) : CompileTurn(key, poclFolder()) {}
+
+CompileTurn::CompileTurn(const std::string& key, const std::filesystem::path& folder)
     : slot_(static_cast<off_t>(std::hash<std::string>{}(key) % kSlots)) {
-  const char* const folder = std::getenv("POCL_CACHE_DIR");
-  if (!folder) return;
-  file_ = ::open((std::filesystem::path(folder) / kTurnsFile).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (folder.empty()) return;
+  file_ = ::open((folder / kTurnsFile).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) return;
   for (;;) {
     const unsigned char before = timesDone();

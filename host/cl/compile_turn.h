@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <filesystem>
 #include <string>
 
 namespace whittle {
@@ -14,6 +15,8 @@ class CompileTurn {
   /// Waits while another process has the turn for `key`. Where PoCL keeps nothing on disk, or on a file
   /// system without locks, nobody waits. The wait ends with the other process, however that one ends.
   explicit CompileTurn(const std::string& key);
+  /// The same of a folder other than PoCL's, by a file there.
+  CompileTurn(const std::string& key, const std::filesystem::path& folder);
   ~CompileTurn();
   CompileTurn(const CompileTurn&) = delete;
   CompileTurn& operator=(const CompileTurn&) = delete;

@@ -13,6 +13,7 @@
 #include <string>
 #include <system_error>
 
+#include "cl/program_cache.h"
 #include "scene/byte_counts.h"
 #include "scene/whole_file.h"
 
@@ -34,11 +35,11 @@ fs::path variable(const char* name) {
   return value && *value ? fs::path(value) : fs::path();
 }
 
-/// Empty where nothing says one.
-fs::path wantedFolder() {
-  if (const fs::path folder = variable(kVariable); !folder.empty()) return folder;
-  if (const fs::path folder = variable("XDG_CACHE_HOME"); !folder.empty()) return folder / "pocl" / "kcache";
-  if (const fs::path folder = variable("HOME"); !folder.empty()) return folder / ".cache" / "pocl" / "kcache";
+/// What the variable `own` says, else `below` in the user's folder of caches; empty where nothing says one.
+fs::path wantedFolder(const char* own, const fs::path& below) {
+  if (const fs::path folder = variable(own); !folder.empty()) return folder;
+  if (const fs::path folder = variable("XDG_CACHE_HOME"); !folder.empty()) return folder / below;
+  if (const fs::path folder = variable("HOME"); !folder.empty()) return folder / ".cache" / below;
   return {};
 }
 
@@ -85,7 +86,8 @@ fs::path privateFolder() {
 
 /// Files that PoCL makes while it compiles, under the names that it gives them, and our probes.
 bool isLeftover(const std::string& name) {
-  return name.starts_with("tempfile") || (name.starts_with("whittle-") && name != kTurnsFile);
+  return name.starts_with("tempfile") ||
+         (name.starts_with("whittle-") && name != kTurnsFile && name != kBesideFile);
 }
 
 void settle(const fs::path& folder) {
@@ -95,10 +97,36 @@ void settle(const fs::path& folder) {
   sweepOldFiles(folder, isLeftover);
 }
 
+/// A file for each key: that its kernels are in the folder beside it.
+fs::path compiledMark(const std::string& key) {
+  const fs::path folder = variable(kVariable);
+  return folder.empty() ? fs::path() : folder / "whittle-compiled" / stableHash(key);
+}
+
 }  // namespace
 
+fs::path programCacheFolder() {
+  const fs::path wanted = wantedFolder("WHITTLE_CACHE_DIR", "whittle");
+  return wanted.empty() ? privateFolder() / "programs" : wanted;
+}
+
+void noteCompiled(const std::string& key) {
+  const fs::path mark = compiledMark(key);
+  std::error_code error;
+  if (mark.empty() || fs::exists(mark, error)) return;
+  fs::create_directories(mark.parent_path(), error);
+  const int file = ::open(mark.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
+  if (file >= 0) ::close(file);  // unwritten, the next run only thinks that it has to compile
+}
+
+bool wasCompiled(const std::string& key) {
+  const fs::path mark = compiledMark(key);
+  std::error_code error;
+  return !mark.empty() && fs::exists(mark, error);
+}
+
 std::string settleKernelCache() {
-  const fs::path wanted = wantedFolder();
+  const fs::path wanted = wantedFolder(kVariable, "pocl/kcache");
   const std::string problem = wanted.empty() ? "HOME is not set" : problemOf(wanted);
   if (problem.empty()) {
     settle(wanted);

@@ -2,6 +2,7 @@
 // has no device, where it cannot be used.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 namespace whittle {
@@ -13,7 +14,18 @@ namespace whittle {
 /// of the process; further calls find the folder settled.
 std::string settleKernelCache();
 
+/// The folder of our own cache (program_cache.h): $WHITTLE_CACHE_DIR, $XDG_CACHE_HOME/whittle,
+/// $HOME/.cache/whittle, else one in the private folder among the temporary files. It need not be there.
+std::filesystem::path programCacheFolder();
+
+/// Marks in $POCL_CACHE_DIR that the kernels called `key` were compiled into it: PoCL itself cannot be asked.
+/// Whoever empties the folder takes the marks away with the kernels.
+void noteCompiled(const std::string& key);
+bool wasCompiled(const std::string& key);
+
 /// Beside the kernels, for compile_turn.h.
 inline constexpr const char* kTurnsFile = "whittle-turns";
+/// Held by the process that compiles while nobody waits.
+inline constexpr const char* kBesideFile = "whittle-beside";
 
 }  // namespace whittle

@@ -100,4 +100,21 @@ cl::Program Compute::build(const std::string& source, const std::string& options
   });
 }
 
+std::optional<cl::Program> Compute::fromBinary(const std::vector<unsigned char>& binary) {
+  try {
+    cl::Program program(context_, {device_.device}, {binary});
+    program.build({device_.device});
+    return program;
+  } catch (const cl::Error&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<unsigned char> Compute::binaryOf(const cl::Program& program) {
+  return clTry("reading a program's binary", [&] {
+    auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
+    return binaries.empty() ? std::vector<unsigned char>() : std::move(binaries.front());
+  });
+}
+
 }  // namespace whittle

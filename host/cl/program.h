@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -79,6 +80,11 @@ class Compute {
   cl::Program build(const std::string& source, const std::string& options,
                     const std::string& name = "the kernels");
   const std::string& buildLog() const { return buildLog_; }
+  /// A program from what binaryOf returned; nothing where the driver refuses it.
+  std::optional<cl::Program> fromBinary(const std::vector<unsigned char>& binary);
+  /// The device's code of a built program; on PoCL for work-groups of those sizes that were launched before.
+  /// Throws ClError.
+  std::vector<unsigned char> binaryOf(const cl::Program& program);
 
  private:
   Buffer allocateShared(const std::string& name, std::size_t bytes);

@@ -35,6 +35,8 @@ RenderResult renderWithProgress(Scene& scene, const RenderOptions& o, const Floa
   hooks.timeStages = timesStages(o);
   hooks.trace = trace;
   hooks.compiler = "/proc/self/exe";
+  hooks.tier = o.tier;
+  hooks.picturesToCome = o.picturesToCome;
   if (!o.frames.frames) hooks.consumed = &scene;
   std::future<void> codec;  // loaded while kernels are compiled
   hooks.phase = [&](const std::string& text) {
@@ -92,6 +94,8 @@ std::string statsText(const RenderOptions& o, const Stats& stats) {
   s["trace"] = path(o.trace);
   s["reference"] = path(o.reference);
   s["kernels"] = path(o.kernelFolder);
+  for (const auto& [word, tier] : kTierWords)
+    if (tier == o.tier) s["tier"] = word;
   s["quiet"] = o.scene.quiet;
   s["checkpoint"] = path(o.checkpoint.file);
   s["every"] = o.checkpoint.every;

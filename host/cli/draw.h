@@ -16,6 +16,7 @@
 #include "cli/frames.h"
 #include "cli/options.h"
 #include "render/render_session.h"
+#include "render/renderer.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 
@@ -31,10 +32,12 @@ struct RenderOptions {
   bool withReference = false;         ///< --explain beside the reference
   bool json = false;
   bool profile = false;
+  Tier tier = Tier::Auto;
   FrameOptions frames;
   CheckpointOptions checkpoint;
-  std::string what = {};  ///< is drawn, of several pictures
-  bool isLater = false;   ///< of those: not the first
+  int picturesToCome = 0;  ///< of several
+  std::string what = {};   ///< is drawn, of several pictures
+  bool isLater = false;    ///< of those: not the first
 
   std::vector<AovOutput> aovs;                   ///< aovTexts, parsed
   std::shared_ptr<Checkpointing> checkpointing;  ///< null: neither --checkpoint nor --resume

@@ -144,6 +144,11 @@ Json infoJson(const InfoReport& r) {
   json["buffers"] = r.plan ? buffersJson(*r.plan) : Json(nullptr);
   json["everythingBytes"] = r.plan ? Json(r.plan->everythingBytes) : Json(nullptr);
   json["peakBytes"] = r.plan ? Json(r.peakBytes) : Json(nullptr);
+  json["programs"] = !r.plan
+                         ? Json(nullptr)
+                         : Json{{"start", r.plan->startsOnGeneral ? "general" : "specialised"},
+                                {"general", r.plan->general.empty() ? Json(nullptr) : Json(r.plan->general)},
+                                {"compiled", r.plan->isOwnCompiled}};
   json["compilerBytes"] = r.plan ? Json(kCompilerBytes) : Json(nullptr);
   json["warnings"] = r.notices.warnings;
   json["notes"] = r.notices.notes;

@@ -213,6 +213,15 @@ std::string buffersText(const RenderPlan& plan) {
                            formatBytes(plan.everythingBytes));
 }
 
+/// What `whittle render` draws it with.
+std::string programsText(const RenderPlan& plan) {
+  std::string text = "its own, compiled when it is rendered; `whittle cache --warm` lets it start without";
+  if (plan.general.empty()) text = "its own: general ones do not do what the options ask for";
+  if (plan.isOwnCompiled) text = "its own, compiled before";
+  if (plan.startsOnGeneral) text = fmt::format("general ones ({}), until its own are compiled", plan.general);
+  return "Programs\n  " + wrapped(text, 78, 2) + "\n\n";
+}
+
 std::string peakText(std::uint64_t bytes) {
   return "\nMemory of a render\n  " +
          wrapped(fmt::format("about {} at its most, buffers and all; {} more while kernels are compiled that "
@@ -228,7 +237,7 @@ std::string infoText(const InfoReport& r) {
   std::string out = printableLine(r.scene.file) + "\n\n" + contents(r.scene) + fileText(r.notices) +
                     featuresText(r.features) + pruningText(r.pruning);
   out += "\nStages that will run\n  " + wrapped(fmt::format("{}", fmt::join(r.stages, ", ")), 78, 2) + "\n\n";
-  if (r.plan) return out + buffersText(*r.plan) + peakText(r.peakBytes);
+  if (r.plan) return out + programsText(*r.plan) + buffersText(*r.plan) + peakText(r.peakBytes);
   return out + "Buffers\n  " + wrapped("unknown: " + r.planProblem, 78, 2) + "\n";
 }
 

@@ -114,6 +114,7 @@ RenderOptions optionsOf(const RenderOptions& o, const Frames& frames, int frame)
   RenderOptions one = o;
   one.scene.time = frames.secondsOf(frame);
   one.isLater = frame > frames.first;
+  one.picturesToCome = frames.last - frame;
   one.what = fmt::format("frame {} of {}", frame - frames.first + 1, frames.count());
   for (auto& file : one.outputs) file = frameFile(file, frame);
   for (auto& aov : one.aovs) aov.file = frameFile(aov.file, frame);
@@ -334,6 +335,9 @@ void addRender(CLI::App& app, int& status, const std::vector<std::string>& argum
           "measure the true RMSE against this .exr after each pass; the summary has the last, --stats all");
   addCheckpointOptions(*c, o->checkpoint);
   addDeviceOptions(*c, o->settings);
+  addChoice(*c, "--tier", o->tier,
+            "which programs draw: general ones from the cache (`whittle cache`), those cut to the scene, or "
+            "general ones until its own are compiled; the picture has the same bits");
   addFile(*c, "--kernels", o->kernelFolder, "FOLDER",
           "read kernels from here, not from the program (for developers)");
   c->footer("Example: whittle render scene.glb -o a.png -o a.exr --stats stats.json");

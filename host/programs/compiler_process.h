@@ -2,6 +2,9 @@
 // compiles others.
 #pragma once
 
+#include <sys/types.h>
+
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -19,6 +22,11 @@ struct CompilerJob {
   CompileTarget target;
   std::optional<std::filesystem::path> folder;  ///< of the kernels; unset: the binary's
   std::vector<std::string> stages;              ///< that will be launched
+  /// Of the programs: those before it are somebody else's. 0: it is a CompilerRun.
+  int first = 1;
+  /// Nobody waits: it takes a processor only when nothing else wants it, ends at once where another such
+  /// process compiles already, and is ended by the system after some minutes.
+  bool isBeside = false;
 };
 
 /// First word of its command line; no command for people.
@@ -32,6 +40,28 @@ CompilerJob compilerJob(const std::vector<std::string>& words);
 /// wrong there goes wrong again, and is said, when its work is done once more here. Nothing is started where
 /// that fails.
 std::function<void()> startCompilerProcess(const std::filesystem::path& binary, const CompilerJob& job);
+
+/// One that is started on all programs of its job (CompilerJob::first 0) and that nobody has to wait for. It
+/// ends when this object does, or its process, unless that let it go.
+class CompilerRun {
+ public:
+  /// Nothing where it cannot be started.
+  static std::optional<CompilerRun> start(const std::filesystem::path& binary, CompilerJob job);
+  ~CompilerRun();
+  CompilerRun(CompilerRun&& other) noexcept;
+  CompilerRun& operator=(CompilerRun&&) = delete;
+
+  /// Its exit status once it has ended.
+  std::optional<int> ended();
+  /// It goes on when its starter ends, so that the next run finds what it makes.
+  void letGo() const;
+
+ private:
+  CompilerRun(pid_t process, int life) : process_(process), life_(life) {}
+  pid_t process_;
+  int life_;  ///< the end of a pipe whose other end is its standard input
+  std::optional<int> status_;
+};
 
 /// The second process: `arguments` are those behind kCompilerCommand. Throws what compiling throws.
 void compilerProcessMain(const std::vector<std::string>& arguments);

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "cl/compile_turn.h"
+#include "cl/kernel_cache.h"
 #include "cl/kernel_source.h"
 #include "programs/referenced_features.h"
 #include "wavefront/kernel_arguments.h"
@@ -50,20 +51,31 @@ void launchIdle(Compute& compute, const cl::Program& program, const std::string&
   });
 }
 
-/// Whether what one process compiled serves the next.
-bool sharesWhatItCompiled(const DeviceInfo& device) {
+/// The key with the device, for what lies on disk.
+std::string keyOnDisk(const DeviceInfo& device, const KernelProgram& program, const CompileTarget& target) {
+  return fmt::format("{}\n{}\n{}\n{}", device.name, device.version, device.driver,
+                     programKey(program, target));
+}
+
+}  // namespace
+
+std::string programKey(const KernelProgram& program, const CompileTarget& target) {
+  return fmt::format("{}\n{}\n{}\n{}", target.workGroup, buildOptions(program, target),
+                     fmt::join(program.kernels, " "), program.source);
+}
+
+bool keepsCompiled(const DeviceInfo& device) {
   const char* const cache = std::getenv("POCL_KERNEL_CACHE");
   return device.platform.find("Portable Computing Language") != std::string::npos &&
          !(cache && std::string(cache) == "0");
 }
 
-/// All that decides on the code that comes out.
-std::string keyOf(const KernelProgram& program, const CompileTarget& target) {
-  return fmt::format("{}\n{}\n{}\n{}", target.workGroup, buildOptions(program, target),
-                     fmt::join(program.kernels, " "), program.source);
+bool wereCompiled(const DeviceInfo& device, const std::vector<KernelProgram>& programs,
+                  const CompileTarget& target) {
+  return keepsCompiled(device) && std::all_of(programs.begin(), programs.end(), [&](const KernelProgram& p) {
+           return wasCompiled(keyOnDisk(device, p, target));
+         });
 }
-
-}  // namespace
 
 std::vector<KernelProgram> kernelPrograms(const SceneFeatures& features,
                                           const std::vector<std::string>& stages,
@@ -93,11 +105,14 @@ std::string buildOptions(const KernelProgram& program, const CompileTarget& targ
 
 cl::Program compileProgram(Compute& compute, const KernelProgram& program, const CompileTarget& target) {
   std::optional<CompileTurn> turn;
-  if (sharesWhatItCompiled(compute.device())) turn.emplace(compute.device().name + keyOf(program, target));
+  const bool keeps = keepsCompiled(compute.device());
+  const std::string key = keyOnDisk(compute.device(), program, target);
+  if (keeps) turn.emplace(key);
   cl::Program built = compute.build(program.source, buildOptions(program, target),
                                     fmt::format("{} ({})", program.name, fmt::join(program.kernels, ", ")));
   for (const auto& name : program.kernels) launchIdle(compute, built, name, target.workGroup);
   if (turn) turn->done();
+  if (keeps) noteCompiled(key);
   return built;
 }
 
@@ -110,7 +125,7 @@ std::vector<cl::Program> compilePrograms(Compute& compute, const std::vector<Ker
   std::function<void()> waitForOthers;
   // Found on disk it takes some 50 ms; a process more would then only be in the way.
   constexpr auto kFoundOnDisk = std::chrono::milliseconds(200);
-  if (beside && programs.size() > 1 && sharesWhatItCompiled(compute.device()) &&
+  if (beside && programs.size() > 1 && keepsCompiled(compute.device()) &&
       first.wait_for(kFoundOnDisk) == std::future_status::timeout)
     waitForOthers = beside();
   built.push_back(first.get());
@@ -120,13 +135,24 @@ std::vector<cl::Program> compilePrograms(Compute& compute, const std::vector<Ker
   return built;
 }
 
+std::vector<cl::Program> keptPrograms(KeptPrograms& kept, const std::vector<KernelProgram>& programs,
+                                      const CompileTarget& target) {
+  std::vector<cl::Program> all;
+  for (const KernelProgram& program : programs) {
+    const cl::Program* const found = kept.find(programKey(program, target));
+    if (!found) return {};
+    all.push_back(*found);
+  }
+  return all;
+}
+
 std::vector<cl::Program> compileOnce(OpenDevice& device, const std::vector<KernelProgram>& programs,
                                      const CompileTarget& target, const CompileBeside& beside) {
   std::vector<cl::Program> all(programs.size());
   std::vector<std::size_t> missing;
   std::vector<KernelProgram> missingPrograms;
   for (std::size_t i = 0; i < programs.size(); ++i) {
-    if (const cl::Program* const kept = device.programs.find(keyOf(programs[i], target))) {
+    if (const cl::Program* const kept = device.programs.find(programKey(programs[i], target))) {
       all[i] = *kept;
       continue;
     }
@@ -136,7 +162,7 @@ std::vector<cl::Program> compileOnce(OpenDevice& device, const std::vector<Kerne
   const auto built = compilePrograms(device.compute, missingPrograms, target, beside);
   for (std::size_t k = 0; k < built.size(); ++k) {
     all[missing[k]] = built[k];
-    device.programs.keep(keyOf(missingPrograms[k], target), built[k]);
+    device.programs.keep(programKey(missingPrograms[k], target), built[k]);
   }
   return all;
 }

@@ -44,6 +44,15 @@ struct CompileTarget {
 /// What the compiler is told besides the program's text.
 std::string buildOptions(const KernelProgram& program, const CompileTarget& target);
 
+/// All that decides on the code that comes out, but for the device.
+std::string programKey(const KernelProgram& program, const CompileTarget& target);
+
+/// Whether what one process compiles on the device serves the next: so does PoCL, unless it is told not to.
+bool keepsCompiled(const DeviceInfo& device);
+/// Whether all of them were compiled there before, as far as is known (wasCompiled).
+bool wereCompiled(const DeviceInfo& device, const std::vector<KernelProgram>& programs,
+                  const CompileTarget& target);
+
 /// Compiles down to the device's code, which many platforms, PoCL among them, put off to a kernel's first
 /// launch. Throws ClError with the build log.
 cl::Program compileProgram(Compute& compute, const KernelProgram& program, const CompileTarget& target);
@@ -63,6 +72,10 @@ struct OpenDevice {
   Compute compute;
   KeptPrograms programs = KeptPrograms();  ///< by all that decides on their code
 };
+
+/// Those that are kept; empty where one is missing.
+std::vector<cl::Program> keptPrograms(KeptPrograms& kept, const std::vector<KernelProgram>& programs,
+                                      const CompileTarget& target);
 
 /// compilePrograms for those that are not kept.
 std::vector<cl::Program> compileOnce(OpenDevice& device, const std::vector<KernelProgram>& programs,

@@ -1,10 +1,15 @@
 // The auxiliary outputs of a render, by name.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "render/preparation.h"
+#include "render/sampling_loop.h"
 #include "scene/settings.h"
+#include "wavefront/pixel_recorder.h"
 
 namespace whittle {
 
@@ -16,5 +21,10 @@ inline const std::vector<std::string> kAovNames{"depth",   "normal", "albedo", "
 void askForAov(Settings& settings, const std::string& name);
 /// All that the settings allow: the error takes two rays for each pixel.
 void askForAllAovs(Settings& settings);
+
+/// What was asked for, as RenderResult::aovs has it; `recorder`: there for bounces and costs.
+std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& settings,
+                                           const PictureBuffers& picture, SamplingLoop& loop,
+                                           const std::optional<PixelRecorder>& recorder);
 
 }  // namespace whittle

@@ -2,6 +2,7 @@
 #include "render/plan.h"
 
 #include "render/preparation.h"
+#include "render/program_choice.h"
 #include "wavefront/stages.h"
 
 namespace whittle {
@@ -20,6 +21,7 @@ std::uint64_t bytesOfEverything(Compute& compute, const Scene& scene, const Sett
   everything.features =
       SceneFeatures::analyse(scene, everything.pruned, all, {compute.device().suitsPackets()});
   everything.lights = lightGroups(scene, everything.pruned, everything.features);
+  everything.buffers = SceneFeatures::ofBits(everything.features.bits());
   SceneBuffers memory = allocateScene(compute, scene, settings, everything, tree);
   memory.queues.reserve(usualQueues(everything.features));
   std::vector<BufferStats> buffers;
@@ -29,6 +31,13 @@ std::uint64_t bytesOfEverything(Compute& compute, const Scene& scene, const Sett
   return bytes;
 }
 
+ProgramChoice programsOf(const DeviceInfo& device, const Settings& settings, const Decisions& decisions) {
+  KeptPrograms none;
+  RenderHooks hooks;
+  hooks.tier = Tier::Auto;
+  return choosePrograms(device, none, settings, decisions, hooks);
+}
+
 }  // namespace
 
 RenderPlan planRender(const Scene& scene, const Settings& settings) {
@@ -36,6 +45,8 @@ RenderPlan planRender(const Scene& scene, const Settings& settings) {
   checkSettings(settings);
   Compute compute = openDevice(settings, kSizesOnly, Compute::Launches::Untimed);
   Decisions decisions = decide(scene, settings, compute.device());
+  const ProgramChoice choice = programsOf(compute.device(), settings, decisions);
+  decisions.buffers = SceneFeatures::ofBits(decisions.features.bits() | choice.bufferFeatures);
   const PictureBuffers picture = allocatePicture(compute, settings, decisions, kSizesOnly);
   const TriTree tree = buildTree(scene, decisions);
   SceneBuffers memory = allocateScene(compute, scene, settings, decisions, tree);
@@ -47,9 +58,11 @@ RenderPlan planRender(const Scene& scene, const Settings& settings) {
   picture.report(plan.buffers);
   plan.everythingBytes = picture.order.bytes + picture.film.bytes + picture.aovs.bytes +
                          bytesOfEverything(compute, scene, settings, decisions, tree);
-  plan.stages =
-      plannedStages({decisions.features, decisions.lights.size(), mostHits(decisions.features, settings),
-                     hasLateLight(scene, decisions.pruned, decisions.lights)});
+  plan.stages = plannedStages({decisions.features, decisions.lights.size(),
+                               mostHits(decisions.features, settings), decisions.hasLateLight});
+  plan.general = choice.generalName;
+  plan.startsOnGeneral = !choice.general.empty();
+  plan.isOwnCompiled = choice.isOwnThere;
   plan.device = compute.device();
   plan.settings = settingsInEffect(settings, decisions, memory.queues);
   plan.features = std::move(decisions.features);

@@ -19,6 +19,9 @@ struct RenderPlan {
   std::vector<BufferStats> buffers;   ///< as allocated: real sizes
   std::uint64_t treeNodes = 0;        ///< of the two-wide tree
   std::uint64_t everythingBytes = 0;  ///< of all buffers with settings.keepAllFeatures
+  std::string general;  ///< the general program that could draw it (analysis/general_features.h), or empty
+  bool startsOnGeneral = false;  ///< with Tier::Auto, now
+  bool isOwnCompiled = false;    ///< before, so that nothing has to be
   DeviceInfo device;
   Settings settings;  ///< as a render would use them
 };

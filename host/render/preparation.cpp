@@ -59,6 +59,8 @@ Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo&
   d.pruned = pruneScene(scene, settings, texels);
   d.features = SceneFeatures::analyse(scene, d.pruned, settings, {device.suitsPackets()});
   d.lights = lightGroups(scene, d.pruned, d.features);
+  d.hasLateLight = hasLateLight(scene, d.pruned, d.lights);
+  d.buffers = SceneFeatures::ofBits(d.features.bits());
   d.compactChunk = defaultCompactChunk(device);
   d.workGroup = settings.workGroup > 0 ? settings.workGroup : defaultWorkGroup(d.features);
   if (static_cast<std::uint64_t>(d.workGroup) > device.maxWorkGroup)
@@ -101,7 +103,7 @@ void PictureBuffers::report(std::vector<BufferStats>& out) const {
 
 TriTree buildTree(const Scene& scene, const Decisions& decisions) {
   TriTree tree;
-  if (decisions.features.has(Feature::TREE)) {
+  if (decisions.buffers.has(Feature::TREE)) {
     UninitializedVector<glm::uvec3> corners(scene.triangles.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, corners.size(), 1 << 14), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
@@ -126,9 +128,9 @@ std::uint32_t queueCapacity(const Settings& s) {
 
 SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
                            const Decisions& decisions, TriTree tree, Scene* consumed) {
-  return {uploadScene(compute, scene, decisions.pruned, std::move(tree), decisions.features, consumed),
-          RayQueues(compute, decisions.features, mostWaiting(decisions.lights), queueCapacity(settings),
-                    decisions.compactChunk)};
+  return {uploadScene(compute, scene, decisions.pruned, std::move(tree), decisions.buffers, consumed),
+          RayQueues(compute, decisions.features, decisions.buffers, mostWaiting(decisions.lights),
+                    queueCapacity(settings), decisions.compactChunk)};
 }
 
 void SceneBuffers::report(std::vector<BufferStats>& out) const {

@@ -36,6 +36,9 @@ struct Decisions {
   PrunedScene pruned;      ///< what goes to the device
   SceneFeatures features;
   std::vector<LightGroup> lights;
+  bool hasLateLight = false;  ///< see light_groups.h
+  /// Whose buffers there are: `features`, and generalBufferFeatures where a general program starts.
+  SceneFeatures buffers;
   std::uint32_t compactChunk = 0;
   int workGroup = 0;
 };

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <future>
 
-#include "programs/compiler_process.h"
 #include "programs/kernel_programs.h"
+#include "render/aovs.h"
 #include "render/describe.h"
 #include "render/phase_log.h"
 #include "render/preparation.h"
+#include "render/program_choice.h"
 #include "render/sampling_loop.h"
+#include "render/take_over.h"
 #include "scene/camera.h"
 #include "wavefront/camera_to_device.h"
 #include "wavefront/constants_to_device.h"
@@ -25,47 +27,6 @@ using Clock = PhaseLog::Clock;
 
 void say(const RenderHooks& hooks, const char* phase) {
   if (hooks.phase) hooks.phase(phase);
-}
-
-struct Compiled {
-  std::vector<cl::Program> programs;
-  double seconds = 0.0;
-};
-
-Compiled compileKernels(OpenDevice& device, const Scene& scene, const Settings& settings,
-                        const Decisions& decisions, const RenderHooks& hooks, Clock::time_point start) {
-  const auto stages =
-      plannedStages({decisions.features, decisions.lights.size(), mostHits(decisions.features, settings),
-                     hasLateLight(scene, decisions.pruned, decisions.lights)});
-  const CompileTarget target{decisions.compactChunk, decisions.workGroup, settings.relaxedArithmetic};
-  CompileBeside beside;
-  if (!hooks.compiler.empty())
-    beside = [&] {
-      return startCompilerProcess(hooks.compiler, {device.compute.device().index, decisions.features.bits(),
-                                                   target, hooks.kernelFolder, stages});
-    };
-  const auto programs = kernelPrograms(decisions.features, stages, hooks.kernelFolder);
-  Compiled compiled{compileOnce(device, programs, target, beside), PhaseLog::secondsSince(start)};
-  if (hooks.trace) hooks.trace->phase("compile kernels", start, Trace::Track::Compiler);
-  return compiled;
-}
-
-std::map<std::string, FloatImage> readAovs(Compute& compute, const Settings& settings,
-                                           const PictureBuffers& picture, SamplingLoop& loop,
-                                           const std::optional<PixelRecorder>& recorder) {
-  std::map<std::string, FloatImage> aovs;
-  if (picture.aovs) {
-    std::vector<float> planes(picture.aovs.bytes / sizeof(float));
-    compute.read(picture.aovs, 0, picture.aovs.bytes, planes.data());
-    std::vector<std::uint32_t> order(picture.order.bytes / sizeof(std::uint32_t));
-    compute.read(picture.order, 0, picture.order.bytes, order.data());
-    aovs = splitAovs(settings, order, planes);
-    aovs["samples"] = loop.samples();
-  }
-  if (settings.errorAov && loop.counts().least() >= 2) aovs["error"] = loop.errors();
-  if (settings.bounceAov) aovs["bounce"] = recorder->bounces();
-  if (settings.costAov) aovs["cost"] = recorder->cost();
-  return aovs;
 }
 
 }  // namespace
@@ -88,7 +49,7 @@ struct RenderSession::State {
   };
 
   struct QueueKey {
-    std::uint64_t features = 0;
+    std::uint64_t features = 0, planes = 0;
     std::uint32_t waitingLights = 0, capacity = 0, compactChunk = 0;
     bool operator==(const QueueKey&) const = default;
   };
@@ -123,6 +84,9 @@ struct RenderSession::State {
   Kept<RayQueues, QueueKey> queues;
   TexelFacts texels;  ///< of the scene's images
   bool haveMeshesMoved = false;
+  /// Of general programs that ran: their buffers stay when the scene's own take over.
+  std::uint64_t bufferFeatures = 0;
+  TakeOver ownPrograms;
   RenderWork work;
 
   /// What lives on the device.
@@ -182,8 +146,9 @@ const RenderWork& RenderSession::work() const { return state_->work; }
 struct RenderSession::State::Prepared {
   OpenDevice& device;
   Decisions decisions;
-  std::vector<cl::Program> programs;
-  double compileSeconds = 0.0, pictureSeconds = 0.0;
+  ProgramChoice choice;
+  StartingPrograms start;
+  double pictureSeconds = 0.0;
 };
 
 OpenDevice& RenderSession::State::openFor(const Settings& settings, const RenderHooks& hooks) {
@@ -215,7 +180,7 @@ void RenderSession::State::providePicture(Compute& compute, const Settings& sett
 
 void RenderSession::State::provideScene(Compute& compute, const Scene& from, const Settings& settings,
                                         const Decisions& decisions, const RenderHooks& hooks, PhaseLog& log) {
-  const SceneKey wanted{decisions.features.bits() & kSceneBufferFeatures, settings.keepAllFeatures,
+  const SceneKey wanted{decisions.buffers.bits() & kSceneBufferFeatures, settings.keepAllFeatures,
                         settings.mirrorRoughness};
   DeviceTables tables = tablesOf(from, decisions.pruned);
   const bool hasTexels = scene.serves(wanted) && scene.value->tables.texels == tables.texels;
@@ -229,7 +194,7 @@ void RenderSession::State::provideScene(Compute& compute, const Scene& from, con
   scene.remake(wanted, [&] {
     TriTree tree = log.time("build tree", [&] { return buildTree(from, decisions); });
     return log.time("upload", [&] {
-      return uploadScene(compute, from, decisions.pruned, std::move(tree), decisions.features, hooks.consumed,
+      return uploadScene(compute, from, decisions.pruned, std::move(tree), decisions.buffers, hooks.consumed,
                          std::move(stays));
     });
   });
@@ -238,16 +203,16 @@ void RenderSession::State::provideScene(Compute& compute, const Scene& from, con
 
 void RenderSession::State::provideQueues(Compute& compute, const Settings& settings,
                                          const Decisions& decisions, bool isPreview, PhaseLog& log) {
-  QueueKey wanted{decisions.features.bits() & kQueueFeatures, mostWaiting(decisions.lights),
-                  queueCapacity(settings), decisions.compactChunk};
+  QueueKey wanted{decisions.features.bits() & kQueueFeatures, decisions.buffers.bits() & kQueueFeatures,
+                  mostWaiting(decisions.lights), queueCapacity(settings), decisions.compactChunk};
   // A preview takes larger ones that are there, and leaves them to the render that follows.
   if (isPreview && queues.value) wanted.capacity = std::max(wanted.capacity, queues.key.capacity);
   work.queues = !queues.serves(wanted);
   if (work.queues)
     queues.remake(wanted, [&] {
       return log.time("allocate queues", [&] {
-        return RayQueues(compute, decisions.features, wanted.waitingLights, wanted.capacity,
-                         decisions.compactChunk);
+        return RayQueues(compute, decisions.features, decisions.buffers, wanted.waitingLights,
+                         wanted.capacity, decisions.compactChunk);
       });
     });
 }
@@ -269,17 +234,21 @@ RenderSession::State::Prepared RenderSession::State::prepare(const Scene& from, 
   say(hooks, "compiling kernels");
   const auto compiling = Clock::now();
   const std::uint64_t programsBefore = open.programs.total();
-  auto compiled = std::async(
-      std::launch::async, [&] { return compileKernels(open, from, settings, decisions, hooks, compiling); });
+  const ProgramChoice choice =
+      choosePrograms(open.compute.device(), open.programs, settings, decisions, hooks);
+  bufferFeatures |= choice.bufferFeatures;
+  decisions.buffers = SceneFeatures::ofBits(decisions.features.bits() | bufferFeatures);
+  auto starting =
+      std::async(std::launch::async, [&] { return startPrograms(open, choice, hooks, compiling); });
   const auto allocating = Clock::now();
   providePicture(open.compute, settings, decisions, hooks.isPreview);
   const double pictureSeconds = PhaseLog::secondsSince(allocating);
   provideScene(open.compute, from, settings, decisions, hooks, log);
   provideQueues(open.compute, settings, decisions, hooks.isPreview, log);
-  Compiled built = compiled.get();
-  log.add("compile kernels", compiling, built.seconds);
+  StartingPrograms started = starting.get();
+  log.add("compile kernels", compiling, started.seconds);
   work.programs = static_cast<int>(open.programs.total() - programsBefore);
-  return {open, std::move(decisions), std::move(built.programs), built.seconds, pictureSeconds};
+  return {open, std::move(decisions), choice, std::move(started), pictureSeconds};
 }
 
 namespace {
@@ -319,7 +288,7 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
 
   say(hooks, kLastPhase);
   const auto rendering = Clock::now();
-  StageRunner stages = runnerOf(compute, prepared.programs, decisions, *kept.queues.value);
+  StageRunner stages = runnerOf(compute, prepared.start.programs, decisions, *kept.queues.value);
   stages.record(hooks.trace);
   const WavefrontSetup setup = setupOf(scene, *kept.scene.value, settings, decisions, hooks);
   Wavefront wavefront(compute, stages, *kept.queues.value, setup, picture.film, picture.aovs);
@@ -330,6 +299,10 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
   SamplingLoop loop(compute, wavefront, settings, hooks,
                     FilmBuffers{tracedRegion(settings).pixels(), picture.order, picture.film, picture.aovs,
                                 picture.passOrder, picture.passBlocks});
+  kept.ownPrograms.begin(prepared.choice, prepared.start.areGeneral);
+  wavefront.beforeEachBatch([&](std::uint32_t batch) {
+    kept.ownPrograms.beforeBatch(batch, prepared.device, prepared.choice, hooks, loop, stages);
+  });
   BiasBound bias(scene, settings);
   const auto resultSoFar = [&] {
     RenderResult result{loop.picture(), {}, readAovs(compute, settings, picture, loop, recorder), {}};
@@ -346,11 +319,12 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
     kept.scene.value->report(stats.buffers);
     kept.queues.value->report(stats.buffers);
     picture.report(stats.buffers);
-    stats.time.compile = prepared.compileSeconds;
+    stats.time.compile = prepared.start.seconds;
     stats.time.build = log.seconds("build tree");
     stats.time.upload = prepared.pictureSeconds + log.seconds("upload") + log.seconds("allocate queues");
-    stats.time.render = loop.seconds();
+    stats.time.render = loop.secondsInAll();
     stats.phases = log.phases();
+    stats.programs = kept.ownPrograms.runs(loop.seconds());
     return result;
   };
   try {
@@ -362,6 +336,7 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
     throw;
   }
   log.end("render", rendering);
+  kept.ownPrograms.end(prepared.choice, hooks, loop.seconds());
   return resultSoFar();
 }
 
@@ -370,10 +345,12 @@ std::vector<RayTree> RenderSession::explain(const Scene& scene, const Settings& 
   State& kept = *state_;
   PhaseLog log(nullptr);
   const auto threads = limitThreads(settings.threads);
-  const State::Prepared prepared = kept.prepare(scene, settings, hooks, log);
+  RenderHooks ownAlone = hooks;  // the recorder knows the planes of the scene's own features
+  ownAlone.tier = Tier::Specialised;
+  const State::Prepared prepared = kept.prepare(scene, settings, ownAlone, log);
   const Decisions& decisions = prepared.decisions;
   Compute& compute = prepared.device.compute;
-  StageRunner stages = runnerOf(compute, prepared.programs, decisions, *kept.queues.value);
+  StageRunner stages = runnerOf(compute, prepared.start.programs, decisions, *kept.queues.value);
   const WavefrontSetup setup = setupOf(scene, *kept.scene.value, settings, decisions, hooks);
   const Buffer& film = kept.pictures[hooks.isPreview].value->film;
   const Buffer none;

@@ -1,6 +1,7 @@
 // One render from a loaded scene to linear pixels: analysis, tree, kernels, upload, passes, film.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -18,6 +19,16 @@ namespace whittle {
 
 struct OpenDevice;
 struct RenderState;
+
+/// Which programs a scene runs on. The picture has the same bits.
+enum class Tier : std::uint8_t {
+  Auto,        ///< general ones while its own are not compiled yet, if they are in the cache
+  General,     ///< general ones from first to last
+  Specialised  ///< its own, which it waits for
+};
+inline constexpr Word<Tier> kTierWords[]{
+    {"auto", Tier::Auto}, {"general", Tier::General}, {"specialised", Tier::Specialised}};
+constexpr const auto& wordsOf(Tier) { return kTierWords; }
 
 struct RenderProgress {
   double samplesDone = 0.0;   ///< a batch under way counts in part
@@ -62,6 +73,12 @@ struct RenderHooks {
   /// The `whittle` binary, to compile kernels with a second process (compilerProcessMain); empty: this one
   /// does it all.
   std::filesystem::path compiler;
+  Tier tier = Tier::Specialised;
+  /// Pictures like this one that follow in the session, as far as is known: what a film saves by programs of
+  /// its own.
+  int picturesToCome = 0;
+  /// For tests: compiles the scene's own programs before this batch (from 0) and goes on with them.
+  std::optional<std::uint32_t> takeOverBefore;
   /// False: the command queue keeps no times, so that Stats' stages have none.
   bool timeStages = true;
   Trace* trace = nullptr;  ///< records launches and phases, needs timeStages; null: nothing is kept

@@ -62,7 +62,7 @@ bool SamplingLoop::looks() const {
 
 void SamplingLoop::run(const std::function<void()>& passDone) {
   start_ = saved_ = Clock::now();
-  if (hooks_.resumed) takeOver(*hooks_.resumed);
+  if (hooks_.resumed) goOnFrom(*hooks_.resumed);
   if (pending_.empty() && !hasMetTarget()) pending_ = nextPasses();
   while (!pending_.empty()) {
     const double began = elapsed();
@@ -84,7 +84,7 @@ void SamplingLoop::run(const std::function<void()>& passDone) {
 
 bool SamplingLoop::hasMetTarget() const { return !error_.empty() && meetsTarget(settings_, error_.back()); }
 
-void SamplingLoop::takeOver(const RenderState& state) {
+void SamplingLoop::goOnFrom(const RenderState& state) {
   if (state.counts.size() != counts_.blocks() || state.film.size() * sizeof(float) != buffers_.film.bytes ||
       state.aovs.size() * sizeof(float) != buffers_.aovs.bytes)
     throw InputError("the picture that is to be gone on with has another size or other layers");
@@ -98,6 +98,7 @@ void SamplingLoop::takeOver(const RenderState& state) {
   endedShare_ = state.endedShare;
   error_ = state.error;
   before_ = state.seconds;
+  samplesBefore_ = static_cast<double>(counts_.total());
   // What the next passes are decided by.
   if (pending_.empty() && looks()) look();
 }
@@ -114,7 +115,7 @@ RenderState SamplingLoop::state() {
   state.tally = wavefront_.tally();
   state.nonFinite = wavefront_.nonFinite();
   state.endedShare = endedShare_;
-  state.seconds = seconds();
+  state.seconds = secondsInAll();
   state.error = error_;
   return state;
 }
@@ -226,8 +227,14 @@ double SamplingLoop::endedPerSample() const {
   return counts_.total() == 0 ? 0.0 : endedInAll(wavefront_.tally()) / static_cast<double>(counts_.total());
 }
 
+double SamplingLoop::secondsLeft() const {
+  const double done = samplesDone_ - samplesBefore_;
+  return done > 0.0 ? elapsed() * std::max(0.0, (expectedSamples() - samplesDone_) / done) : 0.0;
+}
+
 bool SamplingLoop::keepGoing(double samplesOfPass, bool betweenBatches) {
-  reportProgress(static_cast<double>(counts_.total()) + samplesOfPass);
+  samplesDone_ = static_cast<double>(counts_.total()) + samplesOfPass;
+  reportProgress(samplesDone_);
   if (hooks_.keepGoing && !hooks_.keepGoing()) return false;
   if (hooks_.checkpoint && betweenBatches && samplesOfPass > 0.0 &&
       std::chrono::duration<double>(Clock::now() - saved_).count() >= hooks_.checkpointSeconds) {
@@ -253,7 +260,7 @@ void SamplingLoop::reportProgress(double samples) {
   if (!hooks_.progress) return;
   const RayTally& t = wavefront_.tally();
   hooks_.progress(
-      {samples, std::max(expectedSamples(), samples), seconds(), t.primary + t.impulse + t.shadow});
+      {samples, std::max(expectedSamples(), samples), secondsInAll(), t.primary + t.impulse + t.shadow});
 }
 
 /// Of the picture, what the whole will take by the last estimate (the error falls with the root of the

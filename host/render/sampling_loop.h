@@ -37,8 +37,10 @@ class SamplingLoop {
   void run(const std::function<void()>& passDone);
 
   const SampleCounts& counts() const { return counts_; }
-  /// That run took, or has so far, with those of earlier sittings.
-  double seconds() const { return before_ + (seconds_ > 0.0 ? seconds_ : elapsed()); }
+  double seconds() const { return seconds_ > 0.0 ? seconds_ : elapsed(); }  ///< that run took, or has so far
+  double secondsInAll() const { return before_ + seconds(); }  ///< with those of earlier sittings
+  /// That it will go on for, by what it has done since it began; 0 before that says anything.
+  double secondsLeft() const;
   const std::vector<ErrorPoint>& error() const { return error_; }
   /// The picture, after run.
   FloatImage picture();
@@ -57,7 +59,7 @@ class SamplingLoop {
   double growth(double most) const;
   double shownGrowth() const;
   std::uint32_t nextSamples() const;
-  void takeOver(const RenderState& state);
+  void goOnFrom(const RenderState& state);
   RenderState state();
   void save();
   bool hasMetTarget() const;
@@ -86,6 +88,8 @@ class SamplingLoop {
   double seconds_ = 0.0;
   double passSeconds_ = 0.0;       ///< the last uniform pass
   std::uint32_t passSamples_ = 0;  ///< of each pixel, then
+  double samplesDone_ = 0.0;       ///< a pass under way counts in part
+  double samplesBefore_ = 0.0;     ///< of them, in earlier sittings
   bool saidLate_ = false;
   std::vector<double> variances_;  ///< of blocks, at the last look
   double endedShare_ = 0.0;        ///< bound on endedPerSample for passes of some blocks only

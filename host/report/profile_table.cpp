@@ -165,6 +165,14 @@ std::string errorLines(const Stats& s) {
   return out;
 }
 
+/// Who ran, where it was not the scene's own programs alone.
+std::string programLine(const Stats& s) {
+  if (s.programs.empty() || !s.programs.front().isGeneral) return "";
+  if (s.programs.size() == 1) return "on the general programs, without waiting for a compiler\n";
+  return fmt::format("on the general programs for {}, then on its own\n",
+                     formatSeconds(s.programs.front().seconds));
+}
+
 }  // namespace
 
 std::string renderSummary(const Stats& s) {
@@ -174,6 +182,7 @@ std::string renderSummary(const Stats& s) {
                      formatRate(megaRate(s.rays.total(), s.time.render) * 1e6));
   out += fmt::format("{} primary, {} impulse, {} shadow\n", formatInteger(s.rays.primary),
                      formatInteger(s.rays.impulse), formatInteger(s.rays.shadow));
+  out += programLine(s);
   out += errorLines(s);
   if (s.ended.cutOff > 0.0 && std::isfinite(s.biasBound))
     out += fmt::format(

@@ -95,6 +95,16 @@ nlohmann::ordered_json stagesToJson(const std::vector<StageStats>& stages) {
   return list;
 }
 
+nlohmann::ordered_json programsToJson(const std::vector<ProgramRun>& programs) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& p : programs)
+    list.push_back({{"tier", p.isGeneral ? "general" : "specialised"},
+                    {"firstBatch", p.firstBatch},
+                    {"from", p.from},
+                    {"seconds", p.seconds}});
+  return list;
+}
+
 /// 4, not 4.0.
 nlohmann::ordered_json wholeIfWhole(double x) {
   if (x == std::floor(x) && std::fabs(x) < 1e15) return static_cast<std::int64_t>(x);
@@ -145,6 +155,7 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
                   {"upload", s.time.upload}, {"render", s.time.render}, {"write", s.time.write},
                   {"total", s.time.total}};
   json["phases"] = phasesToJson(s.phases);
+  json["programs"] = programsToJson(s.programs);
   json["stages"] = stagesToJson(s.stages);
   for (std::size_t i = 0; i < s.stages.size(); ++i)
     json["stages"][i].update(stageFactsToJson(s.stages[i].facts));

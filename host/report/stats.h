@@ -44,6 +44,13 @@ struct PhaseStats {
   double seconds = 0.0;
 };
 
+/// What ran the batches of a render from one on.
+struct ProgramRun {
+  bool isGeneral = false;            ///< else the scene's own programs
+  std::uint32_t firstBatch = 0;      ///< from 0
+  double from = 0.0, seconds = 0.0;  ///< of the render
+};
+
 struct BufferStats {
   std::string name;
   std::string group;  ///< tree, triangles, queues, textures, film
@@ -88,8 +95,9 @@ struct Stats {
   struct {
     double load = 0, build = 0, compile = 0, upload = 0, render = 0, write = 0, total = 0;  ///< seconds
   } time;
-  std::vector<PhaseStats> phases;  ///< in the order of their ends
-  std::vector<StageStats> stages;  ///< over all bounces
+  std::vector<PhaseStats> phases;    ///< in the order of their ends
+  std::vector<ProgramRun> programs;  ///< one after the other
+  std::vector<StageStats> stages;    ///< over all bounces
   std::vector<BounceStats> bounces;
   std::vector<BufferStats> buffers;
   std::vector<ErrorPoint> error;

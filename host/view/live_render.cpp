@@ -151,6 +151,7 @@ RenderHooks LiveRender::hooksFor(std::uint64_t number, bool coarse) {
   RenderHooks hooks;
   hooks.kernelFolder = kernelFolder_;
   hooks.compiler = compiler_;
+  if (!compiler_.empty()) hooks.tier = Tier::Auto;
   hooks.keepGoing = [this, number] { return isWanted(number); };
   hooks.phase = [this](const std::string& text) {
     {

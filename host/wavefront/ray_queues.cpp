@@ -33,20 +33,16 @@ std::uint32_t hitPlanesFor(const SceneFeatures& features) {
 
 }  // namespace
 
-RayQueues::RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t waitingLights,
-                     std::uint32_t capacity, std::uint32_t compactChunk)
-    : RayQueues(compute,
-                Asked{SceneFeatures::ofBits(features.bits() & kQueueFeatures), std::max(waitingLights, 1U)},
-                capacity, compactChunk) {}
-
 RayQueues::RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacity, std::uint32_t compactChunk)
     : compute_(compute),
       capacity_(capacity),
       segmentLimit_(asked.features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity),
-      rayPlanes_(rayPlanesFor(asked.features)),
-      hitPlanes_(hitPlanesFor(asked.features)),
+      rayPlanes_(rayPlanesFor(asked.planes)),
+      hitPlanes_(hitPlanesFor(asked.planes)),
       impulsePlanes_(IMPULSE_PLANES + conePlanesFor(asked.features)),
-      radiancePlanes_(asked.features.has(Feature::COVERAGE) ? RADIANCE_PLANES_COVERAGE : RADIANCE_PLANES) {
+      radiancePlanes_(asked.planes.has(Feature::COVERAGE) ? RADIANCE_PLANES_COVERAGE : RADIANCE_PLANES),
+      entryBytes_{hitPlanesFor(asked.features) * sizeof(float), radiancePlanes_ * sizeof(float),
+                  rayPlanesFor(asked.features) > RAY_SLOT} {
   // A packet reads up to fifteen entries past its segment (into the next plane, or the padding) and ignores
   // them. It writes whole packets from entry 0, which stay inside a plane because the capacity is a multiple.
   assert(capacity % PACKET_RAYS == 0);
@@ -59,9 +55,10 @@ RayQueues::RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacit
   sampleRadiance = planes("sampleRadiance", radiancePlanes_);
   const std::size_t sets = asked.waitingLights;
   if (shadowRays) shadows = planes("shadows", sets * SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
-  const std::size_t impulsesOfHit = asked.features.has(Feature::BOTH_BRANCHES) ? 2 : 1;
+  // Kernels for two put the only one of a hit into either place.
+  const std::size_t impulsesOfHit = asked.planes.has(Feature::BOTH_BRANCHES) ? 2 : 1;
   if (impulseRays)
-    impulses = planes("impulses", impulsesOfHit * impulsePlanes_),
+    impulses = planes("impulses", impulsesOfHit * (IMPULSE_PLANES + conePlanesFor(asked.planes))),
     entryRadiance = planes("entryRadiance", radiancePlanes_);
   if (shadowRays || impulseRays) {
     flags = compute.allocate("flags", (shadowRays ? sets : 1) * capacity + QUEUE_PADDING);

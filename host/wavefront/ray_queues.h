@@ -30,19 +30,27 @@ class RayQueues {
   /// Allocates what the features need for `capacity` entries; ray queues themselves come on demand.
   /// waitingLights: lights whose shadow candidates are kept at once (mostWaiting).
   RayQueues(Compute& compute, const SceneFeatures& features, std::uint32_t waitingLights,
-            std::uint32_t capacity, std::uint32_t compactChunk);
+            std::uint32_t capacity, std::uint32_t compactChunk)
+      : RayQueues(compute, features, features, waitingLights, capacity, compactChunk) {}
+  /// The same with the planes of `planes`, which has all of `features`, in each of those buffers: for kernels
+  /// that have more features than the scene needs.
+  RayQueues(Compute& compute, const SceneFeatures& features, const SceneFeatures& planes,
+            std::uint32_t waitingLights, std::uint32_t capacity, std::uint32_t compactChunk)
+      : RayQueues(compute,
+                  Asked{SceneFeatures::ofBits(features.bits() & kQueueFeatures),
+                        SceneFeatures::ofBits(planes.bits() & kQueueFeatures), std::max(waitingLights, 1U)},
+                  capacity, compactChunk) {}
 
   std::uint32_t capacity() const { return capacity_; }
   /// Entries a segment may have: half the capacity where a hit can send out two impulses.
   std::uint32_t segmentLimit() const { return segmentLimit_; }
   /// Without distances where nothing asks for them.
   std::uint32_t hitPlanes() const { return hitPlanes_; }
-  /// Of one impulse candidate; with cones where textures are filtered.
+  /// Of one impulse candidate, as kernels with the features lay it out; with cones where textures are
+  /// filtered.
   std::uint32_t impulsePlanes() const { return impulsePlanes_; }
   /// Flags take none where nothing is found that has to be compacted.
-  EntryBytes entryBytes() const {
-    return {hitPlanes_ * sizeof(float), radiancePlanes_ * sizeof(float), rayPlanes_ > RAY_SLOT};
-  }
+  EntryBytes entryBytes() const { return entryBytes_; }
 
   /// A free ray queue; give it back with release. Queues are kept and reused.
   Buffer acquire();
@@ -61,7 +69,7 @@ class RayQueues {
  private:
   /// Of kQueueFeatures alone.
   struct Asked {
-    SceneFeatures features;
+    SceneFeatures features, planes;
     std::uint32_t waitingLights;
   };
   RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacity, std::uint32_t compactChunk);
@@ -75,6 +83,7 @@ class RayQueues {
   std::uint32_t hitPlanes_;
   std::uint32_t impulsePlanes_;
   std::uint32_t radiancePlanes_;
+  EntryBytes entryBytes_;
   std::vector<Buffer> free_;
   std::uint64_t queuesMade_ = 0;
 };

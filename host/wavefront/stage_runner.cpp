@@ -16,6 +16,11 @@ StageRunner::StageRunner(Compute& compute, const std::vector<cl::Program>& progr
       workGroup_(static_cast<std::size_t>(workGroup)),
       widths_(widths),
       entryBytes_(entryBytes) {
+  use(programs);
+}
+
+void StageRunner::use(const std::vector<cl::Program>& programs) {
+  kernels_.clear();
   for (cl::Program program : programs)  // opencl.hpp asks a program that may change
     clTry("finding the kernels of a program", [&] {
       std::vector<cl::Kernel> kernels;

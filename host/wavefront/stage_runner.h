@@ -40,6 +40,9 @@ class StageRunner {
     launch(S::stage, kernel, workItems, {stage.items(), stage.bytes(entryBytes_) + moreBytes});
   }
 
+  /// Goes on with the kernels of other programs, of the same work-group and widths. Nothing may be under way.
+  void use(const std::vector<cl::Program>& programs);
+
   /// Keeps every launch for `trace` (null: none, the usual case). Launches count as of a batch and a bounce
   /// until they are set anew.
   void record(Trace* trace) { trace_ = trace; }

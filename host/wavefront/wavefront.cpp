@@ -42,6 +42,7 @@ std::uint32_t Wavefront::trace(const TracePass& pass, const KeepGoing& keepGoing
 }
 
 bool Wavefront::traceBatch(const TracePass& pass, const device::Batch& batch, Share share) {
+  if (beforeBatch_) beforeBatch_(batchesDone_);
   const RayTally before = tally_;
   batch_ = batch;
   const std::uint32_t count = batch.pixels * batch.samples;

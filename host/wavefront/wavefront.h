@@ -68,6 +68,10 @@ class Wavefront {
   /// Tells it what becomes of every ray, which takes long; null: nobody.
   void observe(WavefrontObserver* observer) { observer_ = observer; }
 
+  /// Called before each batch, with its number in the render, when nothing is under way: kernels may be
+  /// changed for others then.
+  void beforeEachBatch(std::function<void(std::uint32_t batch)> visit) { beforeBatch_ = std::move(visit); }
+
   const RayTally& tally() const { return tally_; }
   std::uint32_t nonFinite();
   /// Counts on from what an earlier wavefront had counted.
@@ -129,6 +133,7 @@ class Wavefront {
   const Buffer* radiance_ = nullptr;  ///< where the segment's entries put theirs
   RayTally tally_;
   WavefrontObserver* observer_ = nullptr;
+  std::function<void(std::uint32_t)> beforeBatch_;
 };
 
 }  // namespace whittle

@@ -133,7 +133,7 @@ TEST(KernelPrograms, ShadingAloneIsRelaxedAndOnlyWhenAskedFor) {
 }
 
 TEST(KernelPrograms, TheCompilerProcessIsToldEverything) {
-  const CompilerJob job{3, 0xabcdef0123456789, {1024, 8, true}, "a folder", {"shade", "film"}};
+  const CompilerJob job{3, 0xabcdef0123456789, {1024, 8, true}, "a folder", {"shade", "film"}, 0, true};
   const CompilerJob heard = compilerJob(commandLine(job));
   EXPECT_EQ(heard.device, job.device);
   EXPECT_EQ(heard.features, job.features);
@@ -142,6 +142,8 @@ TEST(KernelPrograms, TheCompilerProcessIsToldEverything) {
   EXPECT_TRUE(heard.target.relaxedArithmetic);
   EXPECT_EQ(heard.folder, job.folder);
   EXPECT_EQ(heard.stages, job.stages);
+  EXPECT_EQ(heard.first, 0);
+  EXPECT_TRUE(heard.isBeside);
   EXPECT_FALSE(compilerJob(commandLine({0, 0, {32, 64}, {}, {}})).target.relaxedArithmetic);
 }
 

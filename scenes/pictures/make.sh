@@ -45,7 +45,7 @@ for bounces in 1 2 7 32; do render "mirror_box_$bounces" mirror_box --bounces "$
 for scene in spot_cone emission shadow mirror refraction textured nested_glass; do render "$scene" "$scene"; done
 render anti_aliasing_1 anti_aliasing --rays-per-pixel 1
 render anti_aliasing_64 anti_aliasing --rays-per-pixel 64
-composition breakfast 20 --bounces 10 --light-radius 0.12 --ambient 0.06
+composition breakfast 20 --bounces 10 --aperture 0.005 --focus-pixel 1110,660 --light-radius 0.12 --ambient 0.06 --bloom 0.04
 composition diner 16 --bounces 8
 composition watchmaker 16 --bounces 10 --aperture 0.002 --focus-pixel 760,500 --light-radius 0.012 --bloom 0.05
 composition valley 64 --sky 14,70 --sun-angle 0.53 --bloom 0.05 --width 960 --height 540 --cutoff 0 --exposure auto

@@ -1,5 +1,6 @@
 // whittle cache: the general programs that are kept as device binaries: what is there, clearing, compiling
 // them.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -7,7 +8,10 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "cl/device.h"
@@ -52,19 +56,37 @@ void show(const ProgramCache& cache) {
                      ageText(entry.unused), entry.what));
 }
 
-/// PoCL compiles one kernel at a time in a process: a second one begins at the other end.
+/// Before anything is compiled that could not be kept.
+void checkFolder(const ProgramCache& cache) {
+  std::error_code error;
+  std::filesystem::create_directories(cache.folder(), error);
+  try {
+    tryFolder(cache.folder() / "program");
+  } catch (const std::exception& e) {
+    throw std::runtime_error(fmt::format(
+        "programs cannot be kept: {}; set WHITTLE_CACHE_DIR to a folder that can be written to", e.what()));
+  }
+}
+
+/// PoCL compiles one kernel at a time in a process: a second one begins at the other end. What goes wrong
+/// there goes wrong here too, and is said here.
 pid_t startSecond(const CacheOptions& o) {
   std::array<std::string, 7> words{"whittle", "cache",    "--warm", "--backwards",
                                    "--quiet", "--device", o.device};
   std::array<char*, 8> pointers{};
   for (std::size_t i = 0; i < words.size(); ++i) pointers[i] = words[i].data();
   if (o.device.empty()) pointers[5] = nullptr;
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t process = 0;
-  return ::posix_spawn(&process, "/proc/self/exe", nullptr, nullptr, pointers.data(), environ) == 0 ? process
-                                                                                                    : 0;
+  const int error = ::posix_spawn(&process, "/proc/self/exe", &quiet, nullptr, pointers.data(), environ);
+  posix_spawn_file_actions_destroy(&quiet);
+  return error == 0 ? process : 0;
 }
 
 int warm(const CacheOptions& o, const ProgramCache& cache) {
+  checkFolder(cache);
   warnIfAny(settleKernelCache());
   prepareCpuThreads(0, 0);
   Compute compute(selectDevice(listDevices(), o.device));

@@ -22,7 +22,7 @@ RenderHooks onTier(Tier tier) {
 Settings manyBatches(int raysPerPixel = 2) {
   Settings settings = smallSettings(4);
   settings.raysPerPixel = raysPerPixel;
-  settings.wavefront = 2048;
+  settings.wavefront = 1024;
   return settings;
 }
 

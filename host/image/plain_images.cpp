@@ -126,7 +126,8 @@ class Inflater {
  private:
   void step() {
     if (stream_.avail_in == 0) {
-      if (next_ == data_.size()) return void(isGood_ = false);
+      isGood_ = next_ < data_.size();
+      if (!isGood_) return;
       const Bytes part = data_[next_++];
       stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(part.data()));  // only read
       stream_.avail_in = static_cast<uInt>(part.size());

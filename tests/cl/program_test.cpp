@@ -74,8 +74,7 @@ TEST(Compute, BuffersKeepTheirContents) {
 
 /// On devices of both kinds of memory the same items, whole or in parts, come to every place.
 TEST(Compute, ItemsAreMadeInPlaceOrInParts) {
-  constexpr std::size_t kCount =
-      3'000'001;  // more than one part, and no whole number of them
+  constexpr std::size_t kCount = 3'000'001;  // more than one part, and no whole number of them
   for (const bool shares : {false, true}) {
     DeviceInfo device = test::testDevice();
     if (shares && !device.sharesMemory) GTEST_SKIP() << device.name << " has memory of its own";

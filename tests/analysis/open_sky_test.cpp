@@ -12,7 +12,7 @@ namespace {
 constexpr float kFar = 1000;
 
 /// From (0, 2, 5) along -z, 90° high and wide.
-Camera ahead() {
+Camera eyeOfTheRoom() {
   Camera camera;
   camera.position = {0, 2, 5};
   camera.yfov = 1.5708F;
@@ -37,18 +37,18 @@ Scene room(float open) {
 
 TEST(OpenSky, IsWholeInTheOpen) {
   Scene scene;
-  EXPECT_EQ(openSky(scene, ahead(), 1), 1) << "nothing but sky";
+  EXPECT_EQ(openSky(scene, eyeOfTheRoom(), 1), 1) << "nothing but sky";
   addFloor(scene, lambert(glm::vec3(0.5F)), 0, true, kFar);
-  EXPECT_EQ(openSky(scene, ahead(), 1), 1);
+  EXPECT_EQ(openSky(scene, eyeOfTheRoom(), 1), 1);
   addQuad(scene, 0, {-kFar, 0, 0}, {2 * kFar, 0, 0}, {0, kFar, 0});
-  EXPECT_NEAR(openSky(scene, ahead(), 1), 1, 2.0 / 8) << "a wall sees half; a ray more or less";
+  EXPECT_NEAR(openSky(scene, eyeOfTheRoom(), 1), 1, 2.0 / 8) << "a wall sees half; a ray more or less";
 }
 
 TEST(OpenSky, IsAsSmallAsTheWindow) {
-  EXPECT_EQ(openSky(room(0), ahead(), 1), 0);
-  const double some = openSky(room(6), ahead(), 1);
+  EXPECT_EQ(openSky(room(0), eyeOfTheRoom(), 1), 0);
+  const double some = openSky(room(6), eyeOfTheRoom(), 1);
   EXPECT_LE(some, 0.5) << "from 5 m below, a hole of 6 m is a fifth of the sky at most";
-  EXPECT_GT(openSky(room(19), ahead(), 1), some);
+  EXPECT_GT(openSky(room(19), eyeOfTheRoom(), 1), some);
 }
 
 TEST(OpenSky, GlassLetsItThrough) {
@@ -58,7 +58,7 @@ TEST(OpenSky, GlassLetsItThrough) {
   for (std::size_t i = scene.triangles.size() - 8; i < scene.triangles.size(); ++i)
     scene.triangles[i].material = 1;
   scene.materials.push_back(pane);
-  EXPECT_GT(openSky(scene, ahead(), 1), 0.5) << "a roof of glass";
+  EXPECT_GT(openSky(scene, eyeOfTheRoom(), 1), 0.5) << "a roof of glass";
 }
 
 }  // namespace

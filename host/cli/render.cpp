@@ -167,8 +167,8 @@ Scene loadFirstFrame(RenderOptions& o, const Frames& frames, OpenFile& file, Out
   Notices notices;
   notices.notes = uselessOptions(one.settings);
   MemoryBudget budget = budgetOf(one.scene);
-  Scene scene = loadScene(one.scene, {kTriangleBytes, kRuntimeBytes + kCodecBytes, pictureBytes}, one.settings,
-                          budget, notices, &file);
+  Scene scene = loadScene(one.scene, {kTriangleBytes, kRuntimeBytes + kCodecBytes, pictureBytes},
+                          one.settings, budget, notices, &file);
   budget.hold(bytesKept(scene), "--frames: what the frames share");
   for (const auto& read : notices.files) check.reads(read);
   if (!file.moves() && frames.count() > 1)

@@ -109,7 +109,7 @@ struct Settings {
   bool aovs = false;  ///< keep depth, normal, albedo and primitive of each pixel's first sample
   /// The same of its rays: at which bounce its light came, and what the searches for their hits visited.
   bool bounceAov = false, costAov = false;
-  bool errorAov = false;          ///< keep the standard error of each pixel
+  bool errorAov = false;  ///< keep the standard error of each pixel
   /// Keep what a later render needs to go on from where this one ends (RenderHooks::checkpoint).
   bool resumable = false;
   std::optional<float> exposure;  ///< stops, for .png/.jpg only; unset: chosen where the picture does not fit

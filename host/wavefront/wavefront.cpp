@@ -336,9 +336,8 @@ std::uint32_t Wavefront::nonFinite() {
 void Wavefront::countOn(const RayTally& tally, std::uint32_t nonFinite) {
   tally_ = tally;
   clTry("setting a counter", [&] {
-    compute_.queue().enqueueWriteBuffer(counters_.handle, CL_TRUE,
-                                        COUNTER_NONFINITE * sizeof(std::uint32_t), sizeof(nonFinite),
-                                        &nonFinite);
+    compute_.queue().enqueueWriteBuffer(counters_.handle, CL_TRUE, COUNTER_NONFINITE * sizeof(std::uint32_t),
+                                        sizeof(nonFinite), &nonFinite);
   });
 }
 

@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "run_whittle.h"
 #include "gltf/builder.h"
+#include "run_whittle.h"
 
 namespace whittle::test {
 namespace {

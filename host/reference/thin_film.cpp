@@ -41,7 +41,7 @@ Vec3 filmReflectance(const ThinFilm& film, const Vec3& f0, double cosine) {
   const double index = film.index;
   const double cosWithin = std::sqrt(std::max(0.0, 1 - (1 - cosine * cosine) / (index * index)));
   const double R12 = schlickAt(square((index - 1) / (index + 1)), cosine), T = 1 - R12;
-  Vec3 R23, R123, phase;
+  Vec3 R23(0), R123(0), phase(0);
   for (int i = 0; i < 3; ++i) {
     const double root = std::sqrt(std::min(f0[i], 0.9999)), base = (1 + root) / (1 - root);
     R23[i] = schlickAt(square((base - index) / (base + index)), cosWithin);

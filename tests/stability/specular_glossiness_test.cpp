@@ -13,7 +13,7 @@ namespace {
 /// and V = 1/4 (glTF 2.0, appendix B.3), with α = (1 - glossiness)².
 TEST(SpecularGlossiness, FromTheFrontAsTheExtensionSays) {
   const glm::dvec3 diffuse(0.8, 0.5, 0.25), specular(0.5, 0.25, 0.125);
-  constexpr double kGlossiness = 0.5, kIntensity = 10, kHeight = 2;
+  constexpr double kGlossiness = 0.5, kIntensity = 10, kAbove = 2;
   GltfBuilder b;
   const Json gloss{{"diffuseFactor", {diffuse.x, diffuse.y, diffuse.z, 1}},
                    {"specularFactor", {specular.x, specular.y, specular.z}},
@@ -22,7 +22,7 @@ TEST(SpecularGlossiness, FromTheFrontAsTheExtensionSays) {
   b.node({{"mesh", b.triangleMesh({{"material", 0}})}});
   b.json["extensions"]["KHR_lights_punctual"]["lights"] =
       Json::array({{{"type", "point"}, {"intensity", kIntensity}}});
-  b.node({{"translation", {0.25, 0.25, kHeight}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  b.node({{"translation", {0.25, 0.25, kAbove}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
   b.json["extensionsRequired"] = {"KHR_materials_pbrSpecularGlossiness"};
   Probe probe(b.load());
   const Vec3 seen = probe.Li({0.25, 0.25, 1}, {0, 0, -1});
@@ -32,7 +32,7 @@ TEST(SpecularGlossiness, FromTheFrontAsTheExtensionSays) {
     const double c_diff = diffuse[i] * (1 - strongest);
     const double f = c_diff / std::numbers::pi + specular[i] * D * V;
     // Factors are floats.
-    EXPECT_NEAR(seen[i], f * kIntensity / (kHeight * kHeight), 1e-6) << i;
+    EXPECT_NEAR(seen[i], f * kIntensity / (kAbove * kAbove), 1e-6) << i;
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-TEST(Trace, ShowsWhatTheHostDidWhileItLoaded) {
+TEST(LoadingTrace, ShowsWhatTheHostDidWhileItLoaded) {
   const Folder folder;
   const std::string scene = WHITTLE_SCENES "/textured.glb";
   ASSERT_EQ(runWhittle({"render", scene, "--width", "32", "--height", "24", "--trace", "t.json", "--quiet"},

@@ -171,13 +171,14 @@ Json identityOf(const SceneOptions& o, const Scene& scene, const Settings& setti
 }
 
 std::string differenceOf(const Json& began, const Json& now) {
+  // The cause of other differences, as a rule.
+  if (std::string text = fileDifference(began.at("files"), now.at("files")); !text.empty()) return text;
   for (const auto& [key, value] : now.items()) {
     const Json before = began.contains(key) ? began.at(key) : Json();
     if (key == "settings" || key == "files" || before == value) continue;
     if (key == "camera") return "the camera stands or looks elsewhere";
     return fmt::format("{} was {} and is {}", key, valueText(before), valueText(value));
   }
-  if (std::string text = fileDifference(began.at("files"), now.at("files")); !text.empty()) return text;
   for (const auto& [key, value] : now.at("settings").items()) {
     if (std::find(kFreeSettings.begin(), kFreeSettings.end(), key) != kFreeSettings.end()) continue;
     const Json before = began.at("settings").contains(key) ? began.at("settings").at(key) : Json();

@@ -216,7 +216,9 @@ Impulses impulsesOf(const Surfel& s, const Vec3& w_o, const Vec2& facets) {
   Impulse coat = coatImpulse(s, w_o, facets);
   const bool alike = s.smooth && s.coat.smooth && s.n == s.coat.n;
   if (!anyPositive(reflection.magnitude)) {
-    reflection = std::exchange(coat, {w_o, Vec3(0), false});
+    // Added, not put in its place: what is no number stays none.
+    if (anyPositive(coat.magnitude)) reflection.w_i = coat.w_i;
+    reflection.magnitude += std::exchange(coat.magnitude, Vec3(0));
   } else if (alike || s.alpha < 1 || anyPositive(transmission.magnitude)) {  // no room for a third
     reflection.magnitude += std::exchange(coat.magnitude, Vec3(0));
   }

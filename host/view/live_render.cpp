@@ -190,14 +190,14 @@ void LiveRender::renderCoarse(const Request& request, std::uint64_t number, cons
   if (result.stats.samples.least < 1) return;  // it was cut off
   pace_.tookCoarse(static_cast<double>(tracedRegion(coarse).pixels()), result.stats.time.render);
   show(std::move(result), number, true, false);
-  shownAt_ = std::chrono::steady_clock::now();
+  hasShown_ = true;
 }
 
 /// What its first pass tells.
 void LiveRender::noteFull(const RenderResult& result) {
   if (result.stats.samples.most != 1) return;
   pace_.tookFull(static_cast<double>(tracedRegion(rendering_).pixels()), result.stats.time.render);
-  shownAt_ = std::chrono::steady_clock::now();
+  hasShown_ = true;
 }
 
 void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
@@ -209,7 +209,8 @@ void LiveRender::renderRequest(const Request& request, std::uint64_t number) {
   settings.keepFeatures |= featuresOfCamera(request);
   RenderWork work;
   const double pixels = static_cast<double>(tracedRegion(settings).pixels());
-  const int divisor = request.coarseFirst ? pace_.divisor(pixels, since(shownAt_)) : 1;
+  const bool wasCutShort = !std::exchange(hasShown_, false);
+  const int divisor = request.coarseFirst ? pace_.divisor(pixels, wasCutShort) : 1;
   if (divisor > 1 && std::min(settings.width, settings.height) >= 2 * divisor) {
     renderCoarse(request, number, settings, divisor);
     work = session_.work();

@@ -102,9 +102,9 @@ class LiveRender {
   std::uint64_t album_ = 0;  ///< the same
   std::shared_ptr<const Scene> onDevice_;
   Pace pace_;
-  std::chrono::steady_clock::time_point shownAt_{};  ///< the last first picture of a request
-  bool keepsNearPlane_ = false;                      ///< some camera of that scene needed it
-  std::shared_ptr<const RenderResult> whole_;        ///< what was shown last for that album; null: nothing
+  bool hasShown_ = true;                       ///< a picture of the request
+  bool keepsNearPlane_ = false;                ///< some camera of that scene needed it
+  std::shared_ptr<const RenderResult> whole_;  ///< what was shown last for that album; null: nothing
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -4,7 +4,6 @@
 namespace whittle::view {
 namespace {
 
-constexpr double kBetweenPictures = 1.0 / 30.0;  ///< seconds, while a hand moves
 /// What the first ray of a full picture may take where it comes first: with what stands before and behind it,
 /// something is seen within a tenth of a second.
 constexpr double kSoonEnough = 0.08;
@@ -12,11 +11,10 @@ constexpr int kLeastDivisor = 4, kLargestDivisor = 16;
 
 }  // namespace
 
-int Pace::divisor(double pixels, double sinceShown) const {
+int Pace::divisor(double pixels, bool wasCutShort) const {
   const double full = full_ * pixels;
   const bool isKnown = full > 0;
-  if (isKnown && (full <= kBetweenPictures || (full <= kSoonEnough && sinceShown < kBetweenPictures)))
-    return 1;
+  if (isKnown && full <= kSoonEnough && !wasCutShort) return 1;
   int divisor = kLeastDivisor;
   while (divisor < kLargestDivisor && coarse_ * pixels / (divisor * divisor) > kFinishedWithin) divisor *= 2;
   return divisor;

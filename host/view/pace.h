@@ -1,4 +1,4 @@
-// Which picture comes first of a request, so that something new is seen thirty times a second while a hand
+// Which picture comes first of a request, so that something new is seen many times a second while a hand
 // moves, and the full picture soon after it rests: decided by how long pictures took before.
 #pragma once
 
@@ -7,8 +7,9 @@ namespace whittle::view {
 class Pace {
  public:
   /// By how much the sides of the first picture are divided: 4, 8 or 16; 1: the full picture comes first.
-  /// `pixels`: of the full one; `sinceShown`: seconds since the last picture that came first.
-  int divisor(double pixels, double sinceShown) const;
+  /// `pixels`: of the full one; `wasCutShort`: the request before ended without a picture, since this one
+  /// came.
+  int divisor(double pixels, bool wasCutShort) const;
 
   /// How long one sample for each pixel took, seconds.
   void tookCoarse(double pixels, double seconds) { coarse_ = seconds / pixels; }

@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Times, LostDevice,
 TEST(LiveRender, ACoarsePictureUnderWayIsFinishedThoughANewerOneIsAskedFor) {
   const auto scene = std::make_shared<Scene>(ownScene("cornell_box"));
   Settings settings = onTestDevice(smallSettings(2));
-  settings.width = 1280, settings.height = 720;  // more than a thirtieth of a second of two cores
+  settings.width = 2560, settings.height = 1440;  // more than a tenth of a second of two cores
   settings.raysPerPixel = 2;
   Request request{scene, std::make_shared<const Appearance>(appearanceOf(*scene)), scene->cameras[0],
                   settings, true};

@@ -36,7 +36,9 @@ class Context:
         self.folder = pathlib.Path(temporary)  # for generated scenes; removed at the end
         self.threads = machine.threadsHere()
         self.record = machine.record(self.whittle, given)
-        self.environment = dict(os.environ, POCL_CACHE_DIR=str(self.folder / "kernels"))
+        # Without general programs, on which a scene would start: its own are what is measured.
+        self.environment = dict(os.environ, POCL_CACHE_DIR=str(self.folder / "kernels"),
+                                WHITTLE_CACHE_DIR=str(self.folder / "programs"))
 
     def inside(self, name, arguments=()):
         """The same for one experiment: OUT/NAME is its folder; arguments: those of its own."""

@@ -35,7 +35,7 @@ BENCHED = ["height_field"]
 
 def run(program, kernels, arguments):
     """Seconds that passed, processors' seconds, page faults, standard output of one run."""
-    environment = dict(os.environ, POCL_CACHE_DIR=str(kernels))
+    environment = dict(os.environ, POCL_CACHE_DIR=str(kernels), WHITTLE_CACHE_DIR=str(pathlib.Path(kernels) / "programs"))
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         start = time.monotonic()
         running = subprocess.Popen([str(a) for a in (program, *arguments)], env=environment, stdout=out, stderr=err)

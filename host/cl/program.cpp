@@ -46,7 +46,7 @@ Buffer Compute::allocateShared(const std::string& name, std::size_t bytes) {
   // Launches may still be under way when the last handle goes: the driver says when it needs the memory no
   // more.
   buffer.handle.setDestructorCallback([](cl_mem, void* own) { std::free(own); }, memory.get());
-  memory.release();
+  static_cast<void>(memory.release());  // the driver has it
   return buffer;
 }
 

@@ -164,7 +164,7 @@ view::Reference referenceOf(const fs::path& file) {
 }
 
 /// Options of a camera, as `info` and the window print them.
-Camera cameraOf(const Scene& scene, double aspect, const std::string& text) {
+Camera cameraWritten(const Scene& scene, double aspect, const std::string& text) {
   CLI::App app;
   ViewpointOptions options;
   addViewpointOptions(app, options, nullptr);
@@ -243,7 +243,7 @@ int runView(ViewOptions& o) {
   };
   services.readReference = referenceOf;
   services.cameraText = viewpointText;
-  services.camera = cameraOf;
+  services.camera = cameraWritten;
   services.save = savePictures;
   // A script leaves nothing behind but what it is told to write.
   services.recent = view::RecentFiles(script ? fs::path() : view::recentFilesStore());

@@ -21,17 +21,17 @@
 namespace whittle {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using PngBytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kBandBytes = 1 << 18;   ///< enough that what the dictionary costs does not show
 constexpr std::size_t kDictionary = 1 << 15;  ///< as far as deflate looks back
 constexpr int kLevel = 6;                     ///< zlib's own choice between time and size
 
-void putBigEndian(Bytes& out, std::uint32_t value) {
+void putBigEndian(PngBytes& out, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
-void putChunk(Bytes& out, std::string_view type, const Bytes& data) {
+void putChunk(PngBytes& out, std::string_view type, const PngBytes& data) {
   putBigEndian(out, static_cast<std::uint32_t>(data.size()));
   const std::size_t start = out.size();
   out.insert(out.end(), type.begin(), type.end());
@@ -42,7 +42,7 @@ void putChunk(Bytes& out, std::string_view type, const Bytes& data) {
 
 /// The filter's number and the filtered row, behind `out`. `above`: the row before, null for the first.
 void putFiltered(const std::uint8_t* row, const std::uint8_t* above, std::size_t bytes, std::size_t pixel,
-                 Bytes& trial, std::uint8_t* out) {
+                 PngBytes& trial, std::uint8_t* out) {
   std::uint64_t least = ~std::uint64_t{0};
   for (int filter = 0; filter < kPngFilters; ++filter) {
     std::uint64_t sum = 0;
@@ -60,11 +60,11 @@ void putFiltered(const std::uint8_t* row, const std::uint8_t* above, std::size_t
 }
 
 /// Of the picture's rows, each with the number of its filter in front.
-Bytes filtered(const CodeImage& image) {
+PngBytes filtered(const CodeImage& image) {
   const auto pixel = static_cast<std::size_t>(image.channels), bytes = pixel * image.width;
-  Bytes out((bytes + 1) * image.height);
+  PngBytes out((bytes + 1) * image.height);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, image.height, 16), [&](const auto& rows) {
-    Bytes trial(bytes);
+    PngBytes trial(bytes);
     for (std::size_t y = rows.begin(); y < rows.end(); ++y) {
       const std::uint8_t* const row = image.codes.data() + y * bytes;
       putFiltered(row, y == 0 ? nullptr : row - bytes, bytes, pixel, trial, out.data() + y * (bytes + 1));
@@ -74,13 +74,14 @@ Bytes filtered(const CodeImage& image) {
 }
 
 /// A part of a raw deflate stream.
-Bytes deflated(const Bytes& all, std::size_t begin, std::size_t end) {
+PngBytes deflated(const PngBytes& all, std::size_t begin, std::size_t end) {
   z_stream stream{};
   if (deflateInit2(&stream, kLevel, Z_DEFLATED, -15, 9, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
   const std::size_t before = std::min(begin, kDictionary);
   if (before > 0) deflateSetDictionary(&stream, all.data() + begin - before, static_cast<uInt>(before));
-  Bytes out(deflateBound(&stream, static_cast<uLong>(end - begin)) + 16);  // and an empty block of the flush
-  stream.next_in = const_cast<Bytef*>(all.data() + begin);                 // which is only read
+  PngBytes out(deflateBound(&stream, static_cast<uLong>(end - begin)) +
+               16);                                         // and an empty block of the flush
+  stream.next_in = const_cast<Bytef*>(all.data() + begin);  // which is only read
   stream.avail_in = static_cast<uInt>(end - begin);
   stream.next_out = out.data();
   stream.avail_out = static_cast<uInt>(out.size());
@@ -93,8 +94,8 @@ Bytes deflated(const Bytes& all, std::size_t begin, std::size_t end) {
   return out;
 }
 
-Bytes zlibStream(const Bytes& all) {
-  std::vector<Bytes> parts((all.size() + kBandBytes - 1) / kBandBytes);
+PngBytes zlibStream(const PngBytes& all) {
+  std::vector<PngBytes> parts((all.size() + kBandBytes - 1) / kBandBytes);
   std::vector<uLong> sums(parts.size());
   const auto endOf = [&](std::size_t i) { return std::min(all.size(), (i + 1) * kBandBytes); };
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
@@ -102,7 +103,7 @@ Bytes zlibStream(const Bytes& all) {
     parts[i] = deflated(all, begin, endOf(i));
     sums[i] = ::adler32(1, all.data() + begin, static_cast<uInt>(endOf(i) - begin));
   });
-  Bytes out{0x78, 0x9c};  // deflate with a window of 32 kB, the default level
+  PngBytes out{0x78, 0x9c};  // deflate with a window of 32 kB, the default level
   uLong sum = 1;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     out.insert(out.end(), parts[i].begin(), parts[i].end());
@@ -122,7 +123,7 @@ constexpr std::array<std::uint32_t, 8> kWhiteRedGreenBlue{31270, 32900, 64000, 3
 std::vector<std::byte> encodePng(const CodeImage& image, const ImageMetadata& metadata) {
   constexpr std::array<std::uint8_t, 8> kSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   constexpr std::uint8_t kBits = 8, kColours = 2, kColoursAndAlpha = 6, kAbsolute = 3;  // colorimetric
-  Bytes out(kSignature.begin(), kSignature.end()), data;
+  PngBytes out(kSignature.begin(), kSignature.end()), data;
   putBigEndian(data, static_cast<std::uint32_t>(image.width));
   putBigEndian(data, static_cast<std::uint32_t>(image.height));
   for (const std::uint8_t byte : {kBits, image.channels == 4 ? kColoursAndAlpha : kColours, std::uint8_t{0},
@@ -144,7 +145,7 @@ std::vector<std::byte> encodePng(const CodeImage& image, const ImageMetadata& me
   }
   // A chunk's length has 31 bits.
   constexpr std::size_t kMostData = std::size_t{1} << 30;
-  const Bytes stream = zlibStream(filtered(image));
+  const PngBytes stream = zlibStream(filtered(image));
   for (std::size_t at = 0; at < stream.size(); at += kMostData) {
     const auto begin = stream.begin() + static_cast<std::ptrdiff_t>(at);
     data.assign(begin, begin + static_cast<std::ptrdiff_t>(std::min(kMostData, stream.size() - at)));

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "scene/hash.h"
 #include "scene/whole_file.h"
 
 namespace whittle {
@@ -23,18 +24,6 @@ using WallClock = std::chrono::system_clock;
 constexpr std::array<char, 8> kMagic{'W', 'H', 'I', 'T', 'T', 'L', 'E', '1'};
 constexpr const char* kEnding = ".program";
 
-/// FNV-1a (Fowler, Noll, Vo), 64 bits: nobody means harm in a folder of one's own.
-constexpr std::uint64_t kBasis = 0xcbf29ce484222325U;
-
-std::uint64_t hashOf(std::span<const unsigned char> bytes, std::uint64_t hash = kBasis) {
-  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3U;
-  return hash;
-}
-
-std::span<const unsigned char> bytesOf(const std::string& text) {
-  return {reinterpret_cast<const unsigned char*>(text.data()), text.size()};
-}
-
 struct Head {
   std::uint64_t checksum = 0;   ///< of all that follows, and of the members below
   std::uint64_t keyCheck = 0;   ///< another hash of the key than the file's name
@@ -44,12 +33,12 @@ struct Head {
 };
 
 std::uint64_t checksumOf(const Head& head, std::span<const unsigned char> rest) {
-  std::array<unsigned char, sizeof(Head)> own{};
-  std::memcpy(own.data(), &head, sizeof(Head));
-  return hashOf(rest, hashOf(std::span(own).subspan(sizeof(head.checksum))));
+  const auto own = std::as_bytes(std::span(&head, 1)).subspan(sizeof(head.checksum));
+  const std::array<std::uint64_t, 2> parts{hashOf(own), hashOf(std::as_bytes(rest))};
+  return hashOf(std::as_bytes(std::span(parts)));
 }
 
-std::uint64_t keyCheckOf(const std::string& key) { return hashOf(bytesOf(key), ~kBasis); }
+std::uint64_t keyCheckOf(const std::string& key) { return hashOf(std::as_bytes(std::span(key))); }
 
 constexpr std::size_t kBeforeText = kMagic.size() + sizeof(Head);
 
@@ -93,7 +82,12 @@ bool isUnfinished(const std::string& name) { return name.starts_with(".whittle-"
 
 }  // namespace
 
-std::string stableHash(const std::string& text) { return fmt::format("{:016x}", hashOf(bytesOf(text))); }
+/// FNV-1a (Fowler, Noll, Vo), 64 bits.
+std::string stableHash(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return fmt::format("{:016x}", hash);
+}
 
 ProgramCache::ProgramCache(fs::path folder, std::uint64_t most) : folder_(std::move(folder)), most_(most) {}
 

@@ -2,7 +2,7 @@
 
 Held constant: scene, picture, bounces, wavefront, work-group; only --threads changes (PoCL's and TBB's alike), thread
 counts in turn within each run, every kernel compiled beforehand. Speed-up is held against what the machine itself gives
-to as many threads (lib/ceilings.cpp): a virtual processor may be half a core, and memory is shared.
+to as many threads (host/measure/ceilings.h): a virtual processor may be half a core, and memory is shared.
 The tree is built by `whittle bench`, where nothing is compiled beside it.
 Writes e5_ceilings.tsv (rates), e5_frames.tsv (seconds of each run), e5_stages.tsv (by stage),
 e5_launches.tsv (each launch, medians, one thread against as many as processors), e5_build.tsv; figures e5_speedup,

@@ -2,7 +2,7 @@
 
 Held constant: picture, all threads, the program's own choices; scenes in turn within each run, every kernel compiled
 beforehand. Bytes are those of the queue planes that a launch reads and writes, as the statistics estimate them; they
-are compared with what a STREAM triad moves on as many threads (lib/ceilings.cpp).
+are compared with what a STREAM triad moves on as many threads (host/measure/ceilings.h).
 Writes e8_stages.tsv (each run; bounce 0: the whole frame, -1: outside the bounces), e8_ceilings.tsv;
 figures e8_profile, e8_bounces, e8_rates.
 """

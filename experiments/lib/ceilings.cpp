@@ -1,122 +1,25 @@
-// What the machine itself gives to N threads: the ceiling that any program's speed-up is held against.
-// Three loops, each for a fixed time on N threads at once: integer arithmetic in registers (threads that
-// share one core show here), fused multiply-adds on whole vectors (so do clocks that fall under wide
-// vectors), and McCalpin's STREAM triad a = b + s c, which only memory bounds. Prints lines of
-// "KIND<tab>THREADS<tab>RATE": operations/s, flop/s, bytes/s as STREAM counts them (24 for each element).
+// Prints what the machine itself gives to N threads (host/measure/ceilings.h), in lines of
+// "KIND<tab>THREADS<tab>RATE".
 // usage: ceilings THREADS[,THREADS...] SECONDS MEGABYTES_FOR_EACH_ARRAY
-#include <algorithm>
-#include <barrier>
-#include <chrono>
-#include <cstdint>
+#include "measure/ceilings.h"
+
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
-#include <numeric>
 #include <sstream>
 #include <string>
-#include <thread>
-#include <vector>
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
-using Lanes = float __attribute__((vector_size(64)));  // the compiler splits it where registers are narrower
-/// Does a slice of work of some 0.1 ms and returns how much: operations or bytes.
-using Slice = std::function<double()>;
-
-/// Keeps the compiler from dropping a result or from computing it ahead of time.
-template <typename T>
-void touch(T& value) {
-  asm volatile("" : "+m"(value)::"memory");
-}
-
-Slice arithmetic() {
-  return [state = std::uint64_t{88172645463325252}]() mutable {
-    constexpr int kSteps = 50000;
-    std::uint64_t x = state;
-    for (int i = 0; i < kSteps;
-         ++i) {  // Marsaglia's xorshift64: six operations, each waits for the one before
-      x ^= x << 13;
-      x ^= x >> 7;
-      x ^= x << 17;
-    }
-    state = x;
-    touch(state);
-    return 6.0 * kSteps;
-  };
-}
-
-Slice multiplyAdds() {
-  return [sums = std::vector<Lanes>(8)]() mutable {
-    constexpr int kSteps = 20000;
-    Lanes s[8], factor = sums[0] * 0.0F + 0.999F, term = sums[0] * 0.0F + 0.001F;
-    touch(factor);
-    for (int k = 0; k < 8; ++k) s[k] = sums[k];
-    for (int i = 0; i < kSteps; ++i)
-      for (auto& sum : s) sum = sum * factor + term;  // eight chains hide the latency of each other
-    for (int k = 0; k < 8; ++k) sums[k] = s[k];
-    touch(sums[0]);
-    return 2.0 * 8 * 16 * kSteps;
-  };
-}
-
-/// One thread's share of the arrays; the first touch, here, places its pages.
-Slice triad(std::size_t elements) {
-  struct Arrays {
-    std::vector<double> a, b, c;
-    std::size_t next = 0;
-  };
-  Arrays arrays{std::vector<double>(elements), std::vector<double>(elements, 1.0),
-                std::vector<double>(elements, 2.0)};
-  return [x = std::move(arrays)]() mutable {
-    constexpr std::size_t kBlock = 16384;
-    const std::size_t begin = x.next, end = std::min(begin + kBlock, x.a.size());
-    double* __restrict a = x.a.data();
-    const double* __restrict b = x.b.data(), * __restrict c = x.c.data();
-    for (std::size_t i = begin; i < end; ++i) a[i] = b[i] + 3.0 * c[i];
-    touch(x.a[begin]);
-    x.next = end == x.a.size() ? 0 : end;
-    return 24.0 * static_cast<double>(end - begin);
-  };
-}
-
-/// Work done by all threads together for each second: all start at one moment, and what is finished `seconds`
-/// later counts.
-double rate(int threads, double seconds, const std::function<Slice()>& make) {
-  Clock::time_point deadline;
-  std::barrier start(threads, [&]() noexcept {
-    deadline =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  });
-  std::vector<double> work(threads);
-  std::vector<std::thread> crew;
-  for (int t = 0; t < threads; ++t)
-    crew.emplace_back([&, t] {
-      const Slice slice = make();
-      slice();
-      start.arrive_and_wait();
-      for (double done = slice(); Clock::now() < deadline; done += slice()) work[t] = done;
-    });
-  for (auto& thread : crew) thread.join();
-  return std::accumulate(work.begin(), work.end(), 0.0) / seconds;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 4) {
     std::fprintf(stderr, "usage: ceilings THREADS[,THREADS...] SECONDS MEGABYTES_FOR_EACH_ARRAY\n");
     return 2;
   }
-  const double seconds = std::atof(argv[2]);
-  const double elements = std::atof(argv[3]) * 1e6 / sizeof(double);
+  const double seconds = std::atof(argv[2]), bytes = std::atof(argv[3]) * 1e6;
   std::istringstream counts(argv[1]);
   for (std::string count; std::getline(counts, count, ',');) {
     const int threads = std::atoi(count.c_str());
     if (threads < 1) return 2;
-    const auto share = static_cast<std::size_t>(elements / threads);
-    std::printf("integer\t%d\t%.6g\n", threads, rate(threads, seconds, arithmetic));
-    std::printf("fma\t%d\t%.6g\n", threads, rate(threads, seconds, multiplyAdds));
-    std::printf("triad\t%d\t%.6g\n", threads, rate(threads, seconds, [share] { return triad(share); }));
+    const whittle::Ceilings c = whittle::measureCeilings(threads, seconds, bytes);
+    std::printf("integer\t%d\t%.6g\nfma\t%d\t%.6g\ntriad\t%d\t%.6g\n", threads, c.integer, threads,
+                c.multiplyAdd, threads, c.triad);
   }
 }

@@ -1,18 +1,20 @@
-"""The machine's own ceilings, measured by ceilings.cpp: arithmetic and memory on N threads."""
+"""The machine's own ceilings, measured as `whittle scale` does: arithmetic and memory on N threads."""
 import os
 import pathlib
 import subprocess
 
 from lib import measure
-from lib.context import RunFailed, Skipped
+from lib.context import ROOT, RunFailed, Skipped
 
 SOURCE = pathlib.Path(__file__).with_suffix(".cpp")
+HOST = ROOT / "host"
 COLUMNS = ["kind", "threads", "run", "rate"]
 
 
 def compiled(folder):
     program, compiler = folder / "ceilings", os.environ.get("CXX", "g++")
-    command = [compiler, "-std=c++20", "-O3", "-march=native", "-pthread", "-o", program, SOURCE]
+    command = [compiler, "-std=c++20", "-O3", "-march=native", "-pthread", "-I", HOST, "-o", program, SOURCE,
+               HOST / "measure" / "ceilings.cpp"]
     try:
         done = subprocess.run(command, capture_output=True, text=True)
     except FileNotFoundError:

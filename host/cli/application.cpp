@@ -86,6 +86,7 @@ void addCommands(CLI::App& app, int& status, const std::vector<std::string>& arg
   addCache(app, status);
   addCompare(app, status);
   addBench(app, status);
+  addScale(app, status, arguments);
   addView(app, status);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
     command->option_defaults()->group("Other");

@@ -17,6 +17,7 @@ void addDevices(CLI::App& app, int& status);
 void addCache(CLI::App& app, int& status);
 void addCompare(CLI::App& app, int& status);
 void addBench(CLI::App& app, int& status);
+void addScale(CLI::App& app, int& status, const std::vector<std::string>& arguments);
 void addView(CLI::App& app, int& status);
 
 }  // namespace whittle::cli

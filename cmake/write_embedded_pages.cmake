@@ -1,0 +1,12 @@
+# Writes OUT: a C++ file that maps each file of DIR to its text.
+file(GLOB files RELATIVE ${DIR} ${DIR}/*.css ${DIR}/*.js)
+list(SORT files)
+set(text "// Generated from host/report/page/ at build time.\n#include \"report/page_texts.h\"\n\nnamespace whittle {\n\n")
+string(APPEND text "const std::map<std::string, std::string>& pageTexts() {\n")
+string(APPEND text "  static const std::map<std::string, std::string> texts = {\n")
+foreach(file ${files})
+  file(READ ${DIR}/${file} content)
+  string(APPEND text "      {\"${file}\", R\"whittle_page(${content})whittle_page\"},\n")
+endforeach()
+string(APPEND text "  };\n  return texts;\n}\n\n}  // namespace whittle\n")
+file(WRITE ${OUT} "${text}")

@@ -2,7 +2,7 @@
 
 Height fields of 2 N² triangles, then the project's own scenes and, where they are, shared ones, to see whether other
 shapes need as much. Held constant: device and settings that decide what is kept of a scene. Nothing is timed; the
-bytes come from the statistics (groups `tree` and `triangles`, buffers by name) and, for the two-wide tree that a CPU
+bytes come from the statistics (groups `tree`: nodes, and `triangles`: corners and all else; buffers by name) and, for the two-wide tree that a CPU
 does not upload, from `whittle bench`.
 
 Writes e4_memory.tsv (a row for each scene); figure e4_memory.

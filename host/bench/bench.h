@@ -38,7 +38,7 @@ struct BenchRow {
 struct KernelMemory {
   std::string kernel;
   double nodes = 0;
-  double triangles = 0;  ///< or leaves of their corners
+  double triangles = 0;  ///< their corners
 };
 
 struct BenchResult {

@@ -61,9 +61,7 @@ std::size_t QueryRunner::sceneBytes() const {
 
 std::size_t QueryRunner::nodeBytes() const { return scene_.bvh8Nodes.bytes + scene_.nodes.bytes; }
 
-std::size_t QueryRunner::triangleBytes() const {
-  return scene_.leaves ? scene_.leaves.bytes : scene_.triangles.bytes;
-}
+std::size_t QueryRunner::triangleBytes() const { return scene_.leaves.bytes; }
 
 void QueryRunner::load(const RaySet& rays) {
   count_ = static_cast<std::uint32_t>(rays.size());

@@ -39,7 +39,7 @@ class QueryRunner {
 
   const QueryKernel& kernel() const { return kernel_; }
   std::size_t sceneBytes() const;
-  /// Of those, what the search of opaque triangles reads: nodes, and triangles or leaves of their corners.
+  /// Of those, what the search of opaque triangles reads: nodes and corners.
   std::size_t nodeBytes() const;
   std::size_t triangleBytes() const;
 

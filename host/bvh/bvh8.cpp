@@ -7,6 +7,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <vector>
 
@@ -188,15 +189,17 @@ struct Leaf {
   bool operator<(const Leaf& other) const { return first < other.first; }
 };
 
+Leaf leafOf(std::int32_t child) {
+  const auto packed = static_cast<std::uint32_t>(~child);
+  return {packed >> 3U, (packed & 7U) + 1};
+}
+
 std::vector<Leaf> leavesInOrder(const Bvh8& wide) {
   std::vector<Leaf> leaves;
   leaves.reserve(wide.leaves);
   for (const Bvh8Node& node : wide.nodes)
     for (const std::int32_t child : node.child)
-      if (child < 0) {
-        const auto packed = static_cast<std::uint32_t>(~child);
-        leaves.push_back({packed >> 3U, (packed & 7U) + 1});
-      }
+      if (child < 0) leaves.push_back(leafOf(child));
   tbb::parallel_sort(leaves.begin(), leaves.end());
   return leaves;
 }
@@ -234,8 +237,8 @@ void fillLeaves(std::span<const Leaf> leaves, const TriTree& tree, const Corners
   });
 }
 
-/// Behind the last leaf, for the lanes beyond its count.
-constexpr float kBeyond[kLanes] = {};
+/// Behind the last leaf.
+constexpr float kBeyond[9] = {};
 
 }  // namespace
 
@@ -260,14 +263,28 @@ void eachLeafPart(const Bvh8& wide, const TriTree& tree, const CornersOf& corner
     fillLeaves(some, tree, cornersOf, part.data());
     take(9 * from, part);
   }
-  take(leafFloats(tree) - kLanes, kBeyond);
+  take(leafFloats(tree) - std::size(kBeyond), kBeyond);
 }
 
 void makeLeaves(const Bvh8& wide, const TriTree& tree, const CornersOf& cornersOf, std::span<float> out) {
   const std::vector<Leaf> leaves = leavesInOrder(wide);
   if (!leaves.empty())
     fillLeaves(leaves, tree, cornersOf, out.data() + std::size_t{9} * leaves.front().first);
-  std::copy_n(kBeyond, kLanes, out.end() - kLanes);
+  std::copy(std::begin(kBeyond), std::end(kBeyond), out.end() - std::size(kBeyond));
+}
+
+std::vector<std::uint8_t> leafPlaces(const Bvh8& wide, const TriTree& tree) {
+  std::vector<std::uint8_t> places(tree.order.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, wide.nodes.size(), 256), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      for (const std::int32_t child : wide.nodes[i].child) {
+        if (child >= 0) continue;
+        const Leaf leaf = leafOf(child);
+        for (std::uint32_t lane = 0; lane < leaf.count; ++lane)
+          places[leaf.first + lane] = static_cast<std::uint8_t>(lane | (leaf.count - 1) << 3U);
+      }
+  });
+  return places;
 }
 
 }  // namespace whittle

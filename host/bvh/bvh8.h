@@ -7,6 +7,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "bvh/tri_tree.h"
 #include "bvh/uninitialized.h"
@@ -36,9 +37,9 @@ struct Bvh8 {
 /// lanes empty. Parallel with TBB over the calling arena's threads; the result depends on the input alone.
 Bvh8 buildBvh8(const TriTree& tree);
 
-/// Floats of the leaves' corners: nine for each triangle, and eight more, so that a lane beyond the last
-/// leaf's count may be read.
-inline std::size_t leafFloats(const TriTree& tree) { return 9 * tree.order.size() + 8; }
+/// Floats of the leaves' corners: nine for each triangle, and as many zeros, so that a lane beyond the last
+/// leaf's count may be read, and a triangle that nothing hits.
+inline std::size_t leafFloats(const TriTree& tree) { return 9 * tree.order.size() + 9; }
 
 /// Corners, m, of a triangle of those that the tree was built of.
 using CornersOf = std::function<std::array<glm::vec3, 3>(std::uint32_t triangle)>;
@@ -52,5 +53,7 @@ void eachLeafPart(const Bvh8& wide, const TriTree& tree, const CornersOf& corner
                   const TakeLeafFloats& take);
 /// The same floats, made in their places: `out` has leafFloats(tree).
 void makeLeaves(const Bvh8& wide, const TriTree& tree, const CornersOf& cornersOf, std::span<float> out);
+/// Where each triangle, in leaf order, lies in its leaf: lane | (count - 1) << 3. Parallel.
+std::vector<std::uint8_t> leafPlaces(const Bvh8& wide, const TriTree& tree);
 
 }  // namespace whittle

@@ -23,7 +23,7 @@ namespace whittle {
 namespace {
 
 static_assert(sizeof(device::Node) == sizeof(TreeNode));
-static_assert(sizeof(device::DeviceTriangle) == 48);
+static_assert(sizeof(device::DeviceTriangle) == 12);
 static_assert(sizeof(device::DeviceCamera) == 176);
 
 /// False for corners on one line, by the differences that the kernels see; products of two floats are exact
@@ -49,32 +49,56 @@ void inParallel(std::size_t count, const Work& work) {
   });
 }
 
+/// Its place in its leaf stays.
 void setSurface(device::DeviceTriangle& triangle, const SurfaceKind& surface) {
   triangle.material = surface.material;
-  triangle.flags = surface.flags;
+  triangle.flags = surface.flags | (triangle.flags & TRIANGLE_PLACE_BITS);
 }
 
 /// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
+/// `places`: see leafPlaces; empty without an eight-wide tree.
 Buffer uploadTriangles(Compute& compute, const Scene& scene, const std::vector<SurfaceKind>& surfaces,
-                       const std::vector<std::uint32_t>& order) {
+                       const std::vector<std::uint32_t>& order, const std::vector<std::uint8_t>& places) {
   const std::size_t all = order.size() + 1;
   Buffer buffer = compute.allocate("triangles", all * sizeof(device::DeviceTriangle));
   const auto make = [&](std::size_t at) {
-    device::DeviceTriangle out{};
-    if (at == order.size()) {
-      out.primitive = 0xffffffffU;
-      return out;
-    }
-    const std::uint32_t triangle = order[at];
-    const std::array<glm::vec3, 3> corners = hittableCorners(scene, triangle);
-    for (std::size_t k = 0; k < 3; ++k) copy3(out.v[k], corners[k]);
-    out.primitive = triangle;
-    setSurface(out, surfaces[scene.triangles[triangle].material]);
+    if (at == order.size()) return device::DeviceTriangle{0xffffffffU, 0, 0};
+    device::DeviceTriangle out{order[at], places.empty() ? 0U : std::uint32_t{places[at]} << TRIANGLE_PLACE,
+                               0};
+    setSurface(out, surfaces[scene.triangles[out.primitive].material]);
     return out;
   };
   compute.writeItems<device::DeviceTriangle>(
       buffer, all, [&](std::size_t first, std::span<device::DeviceTriangle> items) {
         inParallel(items.size(), [&](std::size_t i) { items[i] = make(first + i); });
+      });
+  return buffer;
+}
+
+/// Corners leaf by leaf.
+Buffer uploadLeaves(Compute& compute, const Scene& scene, const Bvh8& wide, const TriTree& tree) {
+  Buffer buffer = compute.allocate("leaves", leafFloats(tree) * sizeof(float));
+  const CornersOf corners = [&](std::uint32_t t) { return hittableCorners(scene, t); };
+  if (buffer.shared)
+    makeLeaves(wide, tree, corners, {reinterpret_cast<float*>(buffer.shared), leafFloats(tree)});
+  else
+    eachLeafPart(wide, tree, corners, [&](std::size_t first, std::span<const float> part) {
+      compute.write(buffer, first * sizeof(float), std::as_bytes(part));
+    });
+  return buffer;
+}
+
+/// Corners triangle after triangle and, last, of the degenerate one.
+Buffer uploadLeaves(Compute& compute, const Scene& scene, const TriTree& tree) {
+  using Corners = std::array<glm::vec3, 3>;
+  static_assert(sizeof(Corners) == 9 * sizeof(float));
+  Buffer buffer = compute.allocate("leaves", leafFloats(tree) * sizeof(float));
+  compute.writeItems<Corners>(
+      buffer, tree.order.size() + 1, [&](std::size_t first, std::span<Corners> items) {
+        inParallel(items.size(), [&](std::size_t i) {
+          const std::size_t at = first + i;
+          items[i] = at < tree.order.size() ? hittableCorners(scene, tree.order[at]) : Corners{};
+        });
       });
   return buffer;
 }
@@ -157,7 +181,7 @@ Buffer uploadCorners(Compute& compute, const Scene& scene, const PrunedScene& pr
 }
 
 std::string groupOf(const std::string& name) {
-  if (name == "nodes" || name == "bvh8Nodes" || name == "leaves") return "tree";
+  if (name == "nodes" || name == "bvh8Nodes") return "tree";
   if (name == "textures" || name == "texels" || name == "linearFromSrgb" || name == "background" ||
       name == "sky")
     return "textures";
@@ -185,6 +209,7 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   const auto features = SceneFeatures::ofBits(sceneFeatures.bits() & kSceneBufferFeatures);
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
+  std::vector<std::uint8_t> places;
   if (features.has(Feature::TREE) && !features.has(Feature::PACKETS))
     d.nodes = compute.upload("nodes", withSentinels(tree));
   if (features.has(Feature::TREE) && features.has(Feature::PACKETS)) {
@@ -195,17 +220,14 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
       throw ClError(fmt::format("the eight-wide tree is {} nodes deep, the kernels have room for {}",
                                 wide.depth, BVH8_DEPTH));
     d.bvh8Nodes = compute.upload("bvh8Nodes", wide.nodes);
-    d.leaves = compute.allocate("leaves", leafFloats(tree) * sizeof(float));
-    const CornersOf corners = [&](std::uint32_t t) { return hittableCorners(scene, t); };
-    if (d.leaves.shared)
-      makeLeaves(wide, tree, corners, {reinterpret_cast<float*>(d.leaves.shared), leafFloats(tree)});
-    else
-      eachLeafPart(wide, tree, corners, [&](std::size_t first, std::span<const float> part) {
-        compute.write(d.leaves, first * sizeof(float), std::as_bytes(part));
-      });
+    d.leaves = uploadLeaves(compute, scene, wide, tree);
+    places = leafPlaces(wide, tree);
+  } else {
+    d.leaves = uploadLeaves(compute, scene, tree);
   }
   d.tables = tablesOf(scene, pruned);
-  d.triangles = uploadTriangles(compute, scene, d.tables.surfaces, tree.order);
+  d.triangles = uploadTriangles(compute, scene, d.tables.surfaces, tree.order, places);
+  freeArray(places);
   const bool interpolates = features.has(Feature::VERTEX_NORMALS) || features.has(Feature::TEXTURES) ||
                             features.has(Feature::VERTEX_COLORS);
   if (interpolates) {
@@ -241,6 +263,19 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   if (features.has(Feature::BACKGROUND_MAP) && features.has(Feature::SKY_LIGHTS))
     d.sky = stays.sky ? std::move(stays.sky) : compute.upload("sky", skyTableOf(scene.background).until);
   return d;
+}
+
+std::array<glm::vec3, 3> readCorners(Compute& compute, const DeviceScene& scene, std::uint32_t index,
+                                     const device::DeviceTriangle& triangle) {
+  const std::uint32_t place = triangle.flags >> TRIANGLE_PLACE, lane = place & 7U,
+                      stride = (place >> 3U & 7U) + 1;
+  std::vector<float> leaf(std::size_t{9} * stride);
+  compute.read(scene.leaves, std::size_t{9} * (index - lane) * sizeof(float), leaf.size() * sizeof(float),
+               leaf.data());
+  std::array<glm::vec3, 3> corners;
+  for (std::uint32_t k = 0; k < 3; ++k)
+    for (std::uint32_t a = 0; a < 3; ++a) corners[k][static_cast<int>(a)] = leaf[(3 * k + a) * stride + lane];
+  return corners;
 }
 
 DeviceScene imagesOf(DeviceScene&& scene) {

@@ -2,12 +2,16 @@
 // null pointer there.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <utility>
 #include <vector>
 
 #include "analysis/scene_features.h"
 #include "bvh/bvh8.h"
 #include "cl/program.h"
+#include "kernels/shared/layout.h"
 #include "report/stats.h"
 #include "scene/scene.h"
 #include "wavefront/arguments_macro.h"
@@ -57,6 +61,11 @@ struct TableChanges {
 /// After an edit of lights or materials that reads the same texels: writes those tables that are others, and
 /// what the triangles say of their materials. Tree, vertices and texels stay.
 TableChanges takeOver(Compute& compute, const Scene& scene, DeviceTables tables, DeviceScene& onDevice);
+
+/// Corners, m, of triangle `index` in leaf order, of which the device says `triangle`;
+/// kernels/lib/corners.cl.
+std::array<glm::vec3, 3> readCorners(Compute& compute, const DeviceScene& scene, std::uint32_t index,
+                                     const device::DeviceTriangle& triangle);
 
 /// Of the whole scene, for features that nothing analysed.
 inline DeviceScene uploadScene(Compute& compute, const Scene& scene, TriTree tree,

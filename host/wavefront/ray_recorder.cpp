@@ -2,6 +2,7 @@
 // parents in the order of kernels/compact.cl.
 #include "wavefront/ray_recorder.h"
 
+#include <array>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -53,7 +54,8 @@ void RayRecorder::readHits(std::uint32_t count) {
     if (index == NO_HIT) continue;
     device::DeviceTriangle t;
     compute_.read(scene_.triangles, index * sizeof(t), sizeof(t), &t);
-    const auto corner = [&](int c) { return glm::dvec3(t.v[c][0], t.v[c][1], t.v[c][2]); };
+    const std::array<glm::vec3, 3> corners = readCorners(compute_, scene_, index, t);
+    const auto corner = [&](std::size_t c) { return glm::dvec3(corners[c]); };
     const glm::dvec3 e1 = corner(1) - corner(0), e2 = corner(2) - corner(0);
     glm::dvec3 normal = glm::normalize(glm::cross(e1, e2));
     if (glm::dot(normal, of(i).direction) > 0) normal = -normal;

@@ -21,7 +21,7 @@ typedef struct {
   __global const float* background;          // [3 width height] equirectangular
   __global const float* sky;                 // [height + width height] chances of its texels (host/scene/sky.h)
   __global const float* bvh8Nodes;           // [64 nodes] the eight-wide tree (host/bvh/bvh8.h)
-  __global const float* leaves;              // [9 triangles + 8] corners of its leaves
+  __global const float* leaves;              // [9 triangles + 9] corners of triangles (lib/corners.cl)
   uint triangleCount;
 } SceneView;
 

@@ -30,10 +30,13 @@ WHITTLE_STRUCT(Node) {
 #define TRIANGLE_FILTERS 2u    // lets some light through: shadow rays go on, dimmed
 #define TRIANGLE_COATS 4u      // alpha BLEND: comes before what lies in the same plane
 #define TRIANGLE_ONE_SIDED 8u  // eye and impulse rays do not meet its back
+// Behind the flags, where the triangle lies in its leaf: its lane, and the leaf's triangles less one, three bits each.
+// 0 where there is no eight-wide tree.
+#define TRIANGLE_PLACE 8
+#define TRIANGLE_PLACE_BITS (63u << TRIANGLE_PLACE)
 
-// A triangle in leaf order, corners in world space.
+// A triangle in leaf order. Its corners are in `leaves` (kernels/lib/corners.cl).
 WHITTLE_STRUCT(DeviceTriangle) {
-  float v[3][3];
   uint primitive;  // index in the scene, decides ties
   uint flags;      // TRIANGLE_…
   uint material;

@@ -13,7 +13,8 @@ namespace whittle {
 namespace {
 
 struct Walk {
-  std::vector<int> seen;  ///< how often a position of TriTree::order lies in a leaf
+  std::vector<int> seen;             ///< how often a position of TriTree::order lies in a leaf
+  std::vector<std::uint8_t> places;  ///< as leafPlaces says
   std::size_t nodes = 0, leaves = 0;
   int depth = 0;
 };
@@ -61,6 +62,7 @@ void walk(const Bvh8& wide, const TriTree& tree, const test::TriangleMesh& mesh,
       for (std::uint32_t lane = 0; lane < count; ++lane) {
         const std::uint32_t t = tree.order.at(first + lane);
         ++w.seen.at(first + lane);
+        EXPECT_EQ(w.places.at(first + lane), lane + 8 * (count - 1));
         for (int corner = 0; corner < 3; ++corner) {
           const glm::vec3 p = mesh.positions[mesh.triangles[t][corner]];
           for (int a = 0; a < 3; ++a)
@@ -81,6 +83,8 @@ void expectWhole(const test::TriangleMesh& mesh, const std::string& name, const 
   const Bvh8 wide = buildBvh8(tree);
   Walk w;
   w.seen.resize(tree.order.size());
+  w.places = leafPlaces(wide, tree);
+  EXPECT_EQ(w.places.size(), tree.order.size());
   std::vector<std::pair<std::int32_t, int>> boxes;
   walk(wide, tree, mesh, leavesOf(wide, tree, mesh), 0, boxes, w);
   for (std::size_t i = 0; i < w.seen.size(); ++i) ASSERT_EQ(w.seen[i], 1) << "position " << i;

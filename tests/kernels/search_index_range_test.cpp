@@ -60,6 +60,7 @@ std::uint32_t moved(T index, std::size_t by) {
 void moveBvh2(Compute& compute, SearchBench& bench) {
   auto nodes = contents<TreeNode>(compute, bench.deviceScene.nodes);
   auto triangles = contents<device::DeviceTriangle>(compute, bench.deviceScene.triangles);
+  const auto corners = contents<float>(compute, bench.deviceScene.leaves);
   triangles.pop_back();  // the sentinel: every child is there
   const std::size_t nodeCount = (std::size_t{1} << 26) + 5 + nodes.size(), byNodes = nodeCount - nodes.size(),
                     byTriangles = kMaxTriangles - triangles.size();
@@ -74,6 +75,7 @@ void moveBvh2(Compute& compute, SearchBench& bench) {
   bench.firstTriangle = static_cast<std::uint32_t>(byTriangles);
   bench.deviceScene.triangleCount = static_cast<std::uint32_t>(kMaxTriangles);
   bench.deviceScene.nodes = sparse(compute, "nodes", nodeCount, {nodes[0]}, nodes);
+  bench.deviceScene.leaves = sparse(compute, "leaves", 9 * byTriangles + corners.size(), {}, corners);
   bench.deviceScene.triangles = sparse(compute, "triangles", kMaxTriangles, {}, triangles);
 }
 
@@ -104,8 +106,9 @@ TEST(IndexRange, ExactAtTheFarEndOfTheLargestScene) {
   SearchLab lab;
   const DeviceInfo& device = lab.compute.device();
   if (device.kind != "cpu" || kSanitized) GTEST_SKIP() << "memory that is not written would be taken";
-  if (device.largestBuffer < kMaxTriangles * sizeof(device::DeviceTriangle) ||
-      device.globalMemory < 3 * kMaxTriangles * sizeof(device::DeviceTriangle))
+  constexpr std::size_t corners = kMaxTriangles * 9 * sizeof(float),
+                        records = kMaxTriangles * sizeof(device::DeviceTriangle);
+  if (device.largestBuffer < corners || device.globalMemory < 2 * corners + records)
     GTEST_SKIP() << formatBytes(device.largestBuffer) << " in one buffer, "
                  << formatBytes(device.globalMemory) << " in all: too little for the largest scene";
   // Each triangle twice in a row: which of the two counts is decided by indices that are one apart.

@@ -162,7 +162,7 @@ int16 passAlphaMask(const SceneView* scene, uint index, int16 met, float16 b1, f
 
 #if HAS(STRAIGHT)
 /// `met` without the lanes of `edges` whose hits belong to a neighbour.
-int16 ownedHits(const Packet* p, __global const DeviceTriangle* triangle, int16 met, int16 edges) {
+int16 ownedHits(const Packet* p, const Corners* triangle, int16 met, int16 edges) {
   int lanes[PACKET_RAYS], asked[PACKET_RAYS];
   float o[3][PACKET_RAYS], d[3][PACKET_RAYS];
   vstore16(met, 0, lanes);
@@ -199,8 +199,8 @@ INLINE int testNearestPacket(const SceneView* scene, const Packet* p, __global c
   const float16 order = scene->triangles[index].flags & TRIANGLE_COATS ? t * COAT_ORDER : t;
   met &= (order <= best->order) & comesAfter16(scene, p, index, order);
   const int16 edges = met & ((v == 0.0f) | (w == 0.0f) | (det == v + w));
-  if (anyOf16(edges) && (scene->triangles[index].flags & TRIANGLE_FILTERS))
-    met = ownedHits(p, scene->triangles + index, met, edges);
+  const Corners corners = {triangle, stride};
+  if (anyOf16(edges) && (scene->triangles[index].flags & TRIANGLE_FILTERS)) met = ownedHits(p, &corners, met, edges);
   if (!anyOf16(met)) return 0;
   const int16 ties = met & (order == best->order);
 #else

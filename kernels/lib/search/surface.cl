@@ -3,6 +3,8 @@
 #include "lib/scene.cl"
 #include "lib/search/one_lane.cl"
 
+#include "lib/corners.cl"
+
 #if HAS(ALPHA_MASK) || HAS(FILTERED_SHADOWS)
 #include "lib/surface/point.cl"
 

@@ -76,17 +76,18 @@ INLINE float childEntry(const Ray* r, __global const Node* node, int c, float tM
 /// Keeps the candidate in `best` if it comes before it.
 INLINE void testNearest(const SceneView* scene, const Ray* r, uint index, Hit* best) {
   __global const DeviceTriangle* triangle = scene->triangles + index;
+  const Corners corners = cornersOfTriangle(scene, index);
   Candidate c;
   COUNT(best->tests, 1);
 #if HAS(STRAIGHT)
-  if (!intersectTriangle(r, triangle, best->order * ORDER_WIDENING, &c)) return;
+  if (!intersectTriangle(r, &corners, best->order * ORDER_WIDENING, &c)) return;
   const float order = orderOf(scene, index, c.t);
   if (order > best->order || (order == best->order && triangle->primitive > best->primitive)) return;
   if (!comesAfter(scene, &r->passed, index, order)) return;
-  if (c.onEdge && (triangle->flags & TRIANGLE_FILTERS) && !ownsHit(r->o, r->kx, r->ky, r->kz, r->sx, r->sy, triangle))
+  if (c.onEdge && (triangle->flags & TRIANGLE_FILTERS) && !ownsHit(r->o, r->kx, r->ky, r->kz, r->sx, r->sy, &corners))
     return;
 #else
-  if (!intersectTriangle(r, triangle, best->t, &c)) return;
+  if (!intersectTriangle(r, &corners, best->t, &c)) return;
   if (c.t == best->t && triangle->primitive > best->primitive) return;
 #endif
 #if HAS(ONE_SIDED)
@@ -107,12 +108,12 @@ INLINE void testNearest(const SceneView* scene, const Ray* r, uint index, Hit* b
 
 /// Shadow ray: true once the light is blocked. `stops` collects -log2 of the transmittance in units of 2^-16.
 INLINE int testOcclusion(const SceneView* scene, const Ray* r, uint index, float tMax, uint* stops) {
-  __global const DeviceTriangle* triangle = scene->triangles + index;
+  const Corners corners = cornersOfTriangle(scene, index);
   Candidate c;
-  if (!intersectTriangle(r, triangle, tMax, &c) || !(c.t < tMax)) return 0;
+  if (!intersectTriangle(r, &corners, tMax, &c) || !(c.t < tMax)) return 0;
 #if HAS(FILTERED_SHADOWS)
-  if (triangle->flags & TRIANGLE_FILTERS) {
-    if (c.onEdge && !ownsHit(r->o, r->kx, r->ky, r->kz, r->sx, r->sy, triangle)) return 0;
+  if (scene->triangles[index].flags & TRIANGLE_FILTERS) {
+    if (c.onEdge && !ownsHit(r->o, r->kx, r->ky, r->kz, r->sx, r->sy, &corners)) return 0;
     const Real3 through = shadowTransmittance(scene, index, c.b1, c.b2, real3(r->d[0], r->d[1], r->d[2]));
     int blocked = 1;
     for (int k = 0; k < 3; ++k) {
@@ -126,7 +127,7 @@ INLINE int testOcclusion(const SceneView* scene, const Ray* r, uint index, float
   }
 #endif
 #if HAS(ALPHA_MASK)
-  if ((triangle->flags & TRIANGLE_MASKED) && !passesAlphaMask(scene, index, c.b1, c.b2)) return 0;
+  if ((scene->triangles[index].flags & TRIANGLE_MASKED) && !passesAlphaMask(scene, index, c.b1, c.b2)) return 0;
 #endif
   return 1;
 }

@@ -157,8 +157,9 @@ INLINE void testNearestLeaf(const SceneView* scene, const Bvh8Ray* r, int child,
     const float order = orderOf(scene, index, t[lane]);
     if (order > best->order || (order == best->order && !comesFirst(scene, index, best->triangle))) continue;
     if (!comesAfter(scene, &r->passed, index, order)) continue;
+    const Corners corners = {leaf.corners + lane, leaf.count};
     if (mayLieOnEdge(v[lane], w[lane], det[lane]) && (scene->triangles[index].flags & TRIANGLE_FILTERS) &&
-        !ownsHit(r->o, r->kx, r->ky, r->kz, r->sx, r->sy, scene->triangles + index))
+        !ownsHit(r->o, r->kx, r->ky, r->kz, r->sx, r->sy, &corners))
       continue;
 #else
     if (t[lane] > best->t || (t[lane] == best->t && !comesFirst(scene, index, best->triangle))) continue;

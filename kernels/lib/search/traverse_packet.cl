@@ -17,13 +17,18 @@ void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
 #if HAS(STRAIGHT)
   best->order = best->t;
 #endif
-  for (uint i = 0; i < scene->triangleCount; ++i) testNearestPacket(scene, p, &scene->triangles[i].v[0][0], 1, i, best);
+  for (uint i = 0; i < scene->triangleCount; ++i) {
+    const Corners triangle = cornersOfTriangle(scene, i);
+    testNearestPacket(scene, p, triangle.at, triangle.stride, i, best);
+  }
 }
 
 void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint* stops) {
   *tMax = wakeFinite(p, *tMax);
-  for (uint i = 0; i < scene->triangleCount; ++i)
-    if (testOcclusionPacket(scene, p, &scene->triangles[i].v[0][0], 1, i, tMax, stops) && allOf16(*tMax < 0.0f)) return;
+  for (uint i = 0; i < scene->triangleCount; ++i) {
+    const Corners triangle = cornersOfTriangle(scene, i);
+    if (testOcclusionPacket(scene, p, triangle.at, triangle.stride, i, tMax, stops) && allOf16(*tMax < 0.0f)) return;
+  }
 }
 
 #else

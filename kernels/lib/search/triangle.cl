@@ -3,6 +3,8 @@
 // triangles that share an edge cannot both reject.
 #include "lib/search/order.cl"
 
+#include "lib/corners.cl"
+
 /// A ray with the shear that turns its largest axis into +z: o + t d.
 typedef struct {
   float o[3];
@@ -14,6 +16,20 @@ typedef struct {
   Passed passed;
 #endif
 } Ray;
+
+/// Where the corners of one triangle are: coordinate `axis` of corner k is at[(3 k + axis) stride], m.
+typedef struct {
+  __global const float* at;
+  uint stride;
+} Corners;
+
+INLINE Corners cornersOfTriangle(const SceneView* scene, uint index) {
+  const CornerPlace place = cornerPlace(scene, index);
+  const Corners corners = {scene->leaves + place.first, place.stride};
+  return corners;
+}
+
+INLINE float coordinate(const Corners* c, int corner, int axis) { return c->at[(uint)(3 * corner + axis) * c->stride]; }
 
 /// The candidate of one triangle test.
 typedef struct {
@@ -98,12 +114,12 @@ INLINE float sideOfEdge(float px, float py, float qx, float qy) { return py != q
 /// A ray that meets an edge meets all triangles there, so that nothing leaks. Where each of them takes its share of
 /// the light, that would be too often: the hit then belongs to the triangle that a ray a tiny way beside it would
 /// meet, of neighbours to one (the rule by which rasterisers fill shared edges).
-int ownsHit(const float* o, int kx, int ky, int kz, float sx, float sy, __global const DeviceTriangle* triangle) {
+int ownsHit(const float* o, int kx, int ky, int kz, float sx, float sy, const Corners* triangle) {
   float x[3], y[3];
   for (int k = 0; k < 3; ++k) {
-    const float z = triangle->v[k][kz] - o[kz];
-    x[k] = fma(-sx, z, triangle->v[k][kx] - o[kx]);
-    y[k] = fma(-sy, z, triangle->v[k][ky] - o[ky]);
+    const float z = coordinate(triangle, k, kz) - o[kz];
+    x[k] = fma(-sx, z, coordinate(triangle, k, kx) - o[kx]);
+    y[k] = fma(-sy, z, coordinate(triangle, k, ky) - o[ky]);
   }
   float u, v, w;
   edgeTest(x[0], y[0], x[1], y[1], x[2], y[2], &u, &v, &w);
@@ -122,11 +138,11 @@ INLINE int facesRay(float det, float sz) { return (det > 0.0f) == (sz > 0.0f); }
 /// boxes are culled; of a triangle across an axis, a floor, t becomes exact. NaN stays NaN. First all near planes, then
 /// all far ones, so that the order of the axes does not matter. clampToBox8 and clampToBox16 follow it;
 /// SearchAgreement.GravelOnAPlain holds them to its bits.
-INLINE float clampToBox(const Ray* r, __global const DeviceTriangle* triangle, float t) {
+INLINE float clampToBox(const Ray* r, const Corners* triangle, float t) {
   float far[3];
   for (int a = 0; a < 3; ++a) {
     float lo, hi;
-    extent(triangle->v[0][a], triangle->v[1][a], triangle->v[2][a], &lo, &hi);
+    extent(coordinate(triangle, 0, a), coordinate(triangle, 1, a), coordinate(triangle, 2, a), &lo, &hi);
     const int down = !(r->inverse[a] >= 0.0f);
     const float near = ((down ? hi : lo) - r->o[a]) * r->inverse[a];
     far[a] = ((down ? lo : hi) - r->o[a]) * r->inverse[a];
@@ -140,16 +156,16 @@ INLINE float clampToBox(const Ray* r, __global const DeviceTriangle* triangle, f
 /// intersectAxis do the same for other layouts; SearchAgreement in tests/kernels holds them to the same bits. The
 /// host turns a triangle without area into a point (det 0, t not a number): rounding could open it in the plane
 /// across the ray.
-INLINE int intersectTriangle(const Ray* r, __global const DeviceTriangle* triangle, float tMax, Candidate* hit) {
-  const float az = triangle->v[0][r->kz] - r->o[r->kz];
-  const float bz = triangle->v[1][r->kz] - r->o[r->kz];
-  const float cz = triangle->v[2][r->kz] - r->o[r->kz];
-  const float ax = fma(-r->sx, az, triangle->v[0][r->kx] - r->o[r->kx]);
-  const float ay = fma(-r->sy, az, triangle->v[0][r->ky] - r->o[r->ky]);
-  const float bx = fma(-r->sx, bz, triangle->v[1][r->kx] - r->o[r->kx]);
-  const float by = fma(-r->sy, bz, triangle->v[1][r->ky] - r->o[r->ky]);
-  const float cx = fma(-r->sx, cz, triangle->v[2][r->kx] - r->o[r->kx]);
-  const float cy = fma(-r->sy, cz, triangle->v[2][r->ky] - r->o[r->ky]);
+INLINE int intersectTriangle(const Ray* r, const Corners* triangle, float tMax, Candidate* hit) {
+  const float az = coordinate(triangle, 0, r->kz) - r->o[r->kz];
+  const float bz = coordinate(triangle, 1, r->kz) - r->o[r->kz];
+  const float cz = coordinate(triangle, 2, r->kz) - r->o[r->kz];
+  const float ax = fma(-r->sx, az, coordinate(triangle, 0, r->kx) - r->o[r->kx]);
+  const float ay = fma(-r->sy, az, coordinate(triangle, 0, r->ky) - r->o[r->ky]);
+  const float bx = fma(-r->sx, bz, coordinate(triangle, 1, r->kx) - r->o[r->kx]);
+  const float by = fma(-r->sy, bz, coordinate(triangle, 1, r->ky) - r->o[r->ky]);
+  const float cx = fma(-r->sx, cz, coordinate(triangle, 2, r->kx) - r->o[r->kx]);
+  const float cy = fma(-r->sy, cz, coordinate(triangle, 2, r->ky) - r->o[r->ky]);
   float u, v, w;
   if (!edgeTest(ax, ay, bx, by, cx, cy, &u, &v, &w)) return 0;
   const float det = u + v + w;

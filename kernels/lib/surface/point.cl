@@ -1,5 +1,6 @@
 // A point of a triangle: where it lies, its texture coordinates, its base colour. What shading asks of every hit, and
 // searches where a surface may be missing or see-through. Conventions: host/reference/README.md.
+#include "lib/corners.cl"
 #include "lib/surface/texture.cl"
 
 /// Where in its triangle a hit lies. Low parts: what b1 and b2 lost to rounding, 0 where nobody asked.
@@ -108,12 +109,12 @@ INLINE void cornersOf(const SceneView* scene, Natural triangleIndex, Natural* co
 /// All but the texture coordinates. Lanes that hit nothing must name a triangle that is there.
 INLINE TrianglePoint trianglePoint(const SceneView* scene, Natural triangleIndex, const Barycentrics* b) {
   TrianglePoint at;
-  __global const float* triangles = (__global const float*)scene->triangles;
-  const Natural word = triangleIndex * WORDS_OF(DeviceTriangle);
-  at.p0 = gather3(triangles, word);
-  at.p1 = gather3(triangles + 3, word);
-  at.p2 = gather3(triangles + 6, word);
-  at.material = recordsAt(scene->materials, AS_NATURAL(gather(triangles + WORD_OF(DeviceTriangle, material), word)),
+  const CornerPlace place = cornerPlace(scene, triangleIndex);
+  at.p0 = cornerAt(scene, &place, 0);
+  at.p1 = cornerAt(scene, &place, 1);
+  at.p2 = cornerAt(scene, &place, 2);
+  __global const uint* materials = (__global const uint*)scene->triangles + WORD_OF(DeviceTriangle, material);
+  at.material = recordsAt(scene->materials, gatherWords(materials, triangleIndex * WORDS_OF(DeviceTriangle)),
                           WORDS_OF(DeviceMaterial));
   at.b0 = b->b0;
   at.b1 = b->b1;

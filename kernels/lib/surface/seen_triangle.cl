@@ -1,8 +1,7 @@
 // A triangle as it is seen from a point: how much of the directions it takes up, and a direction to it, all of them as
 // likely (Arvo, "Stratified Sampling of Spherical Triangles", 1995; without his angles, whose differences cancel, after
 // Peters, "BRDF Importance Sampling for Polygonal Lights", 2021).
-#include "lib/lanes.cl"
-#include "lib/scene.cl"
+#include "lib/corners.cl"
 
 typedef struct {
   Real3 first, e1, e2;  // towards its first corner, and along its sides from there, m
@@ -29,9 +28,8 @@ INLINE SeenTriangle seenFrom(Real3 from, Real3 p0, Real3 p1, Real3 p2) {
 }
 
 INLINE SeenTriangle seenTriangle(const SceneView* scene, Natural triangle, Real3 from) {
-  __global const float* triangles = (__global const float*)scene->triangles;
-  const Natural word = triangle * WORDS_OF(DeviceTriangle);
-  return seenFrom(from, gather3(triangles, word), gather3(triangles + 3, word), gather3(triangles + 6, word));
+  const CornerPlace place = cornerPlace(scene, triangle);
+  return seenFrom(from, cornerAt(scene, &place, 0), cornerAt(scene, &place, 1), cornerAt(scene, &place, 2));
 }
 
 /// Seen from its back.

@@ -154,6 +154,8 @@ INLINE RayTable tableOf(const Packet* p, float16 tMax) {
   for (int a = 0; a < 3; ++a) {
     vstore16(p->inverse[a], 0, rays.inverse[a]);
     vstore16(p->shear[a], 0, rays.shear[a]);
+    vstore16(p->nearBias[a], 0, rays.nearBias[a]);
+    vstore16(p->farBias[a], 0, rays.farBias[a]);
   }
   vstore16(p->kz, 0, rays.kz);
   vstore16(wakeFinite(p, tMax), 0, rays.t);

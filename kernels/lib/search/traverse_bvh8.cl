@@ -210,15 +210,15 @@ typedef struct {
   int groups[BVH8_DEPTH];
 } Walk;
 
-/// One step: a child taken from the stack, a node opened or a leaf tested. 0 at the end of the way.
+/// One step: what waits and lies behind the hit is left, then a node opened or a leaf tested. 0 at the end of the way.
 INLINE int step(const SceneView* scene, Walk* w) {
-  const uint least = least8(w->keys);
-  if (least > w->limit) {
+  uint least = least8(w->keys);
+  while (least > w->limit) {
     if (w->depth == 0) return 0;
     --w->depth;
     w->keys = vload8(w->depth, w->waiting);
     w->group = w->groups[w->depth];
-    return 1;
+    least = least8(w->keys);
   }
   const uint8 keys = select(w->keys, (uint8)(NO_CHILD), as_uint8(w->keys == least));
   const int child = as_int(scene->bvh8Nodes[(size_t)w->group * BVH8_NODE_FLOATS + 48 + (least & 7u)]);

@@ -43,11 +43,9 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
     o[a] = select((float16)(from[0]), vload16(0, from), awake);
     d[a] = select((float16)(along[0]), vload16(0, along), awake);
   }
-#if HAS(STRAIGHT)
   Packet p = makePacket(o, d);
+#if HAS(STRAIGHT)
   if (continued) passSurfaces(&scene, rays + first + i, stride, awake, &p);
-#else
-  const Packet p = makePacket(o, d);
 #endif
   PacketHit hit;
   hit.t = select((float16)(-1.0f), (float16)(MAXFLOAT), awake);

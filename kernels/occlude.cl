@@ -64,7 +64,7 @@ __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity, const
     o[a] = loadLanes(&s, shadows + (size_t)(SHADOW_O + a) * capacity);
     d[a] = loadLanes(&s, shadows + (size_t)(SHADOW_D + a) * capacity);
   }
-  const Packet p = makePacket(o, d);
+  Packet p = makePacket(o, d);
   const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const float16 length = loadLanes(&s, shadows + (size_t)SHADOW_LENGTH * capacity);
   // Nothing lies before a length of 0, less, or NaN.

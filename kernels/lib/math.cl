@@ -76,6 +76,40 @@ INLINE uint least8(uint8 v) {
 }
 #endif
 
+/// One bit for each lane of a comparison.
+INLINE uint laneBits(int8 mask) {
+#if defined(__AVX__) && defined(CLANG_FOR_PROCESSOR)
+  return (uint)__builtin_ia32_movmskps256(as_float8(mask));
+#else
+  const int8 bits = mask & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+  const int4 a = bits.lo | bits.hi;
+  const int2 b = a.lo | a.hi;
+  return (uint)(b.x | b.y);
+#endif
+}
+
+INLINE uint laneBits16(int16 mask) {
+#if defined(__AVX512DQ__) && defined(CLANG_FOR_PROCESSOR)
+  return (uint)__builtin_ia32_cvtd2mask512(mask);
+#else
+  return laneBits(mask.lo) | laneBits(mask.hi) << 8;
+#endif
+}
+
+/// The mask that has these bits.
+INLINE int16 lanesOfBits(uint bits) {
+  const int16 bit = (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
+  return ((int16)((int)bits) & bit) != 0;
+}
+
+INLINE uint lowestBit(uint bits) {
+#ifdef CLANG_FOR_PROCESSOR
+  return (uint)__builtin_ctz(bits);
+#else
+  return popcount((bits & (0u - bits)) - 1u);
+#endif
+}
+
 /// Of lanes that are numbers; halving, because a compiler's own reduction takes care of NaN in each step.
 INLINE float greatest16(float16 v) {
   const float8 a = v.lo > v.hi ? v.lo : v.hi;

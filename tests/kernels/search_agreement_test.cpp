@@ -1,6 +1,9 @@
 // The forms of the search (one ray or sixteen, array or tree) give the same bits on random
 // scenes, the triangle that exact arithmetic finds, and any-hit answers that agree with the nearest hit.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "support/record.h"
 #include "support/search_bench.h"
@@ -97,6 +100,41 @@ TEST(SearchAgreement, RandomScenes) {
     EXPECT_GT(hit, rays.size() / 10) << "the rays must meet something to say anything";
     EXPECT_LT(hit, rays.size());
   }
+}
+
+/// Packets whose rays run two or three ways, mixed lane by lane and in every proportion, as behind a mirror
+/// that bends. Each way widens to `spread`, so that its rays part again in front of small triangles.
+std::vector<TestRay> raysOfSomeWays(float spread, std::uint64_t seed) {
+  constexpr int kPacket = 16;
+  test::Rng rng(seed);
+  std::vector<TestRay> rays;
+  for (int packet = 0; packet < 120; ++packet) {
+    const int ways = 2 + packet % 2, ofFirst = packet % (kPacket + 1);
+    const glm::vec3 o[3] = {3.0F * rng.direction(), 3.0F * rng.direction(), 3.0F * rng.direction()};
+    for (int lane = 0; lane < kPacket; ++lane) {
+      const int way =
+          lane * 7 % kPacket < ofFirst ? 0 : 1 + lane % (ways - 1);  // 7: the lanes of a way lie apart
+      const glm::vec3 from = o[way] + rng.inBox(0.1F);
+      rays.push_back({from, glm::normalize(spread * rng.inBox(1) - o[way])});
+    }
+  }
+  return rays;
+}
+
+TEST(SearchAgreement, PacketsThatRunSomeWays) {
+  SearchLab lab;
+  const Case cases[] = {{"soup", test::randomSoup(4000, 0.05F, 5)},
+                        {"large triangles", test::randomSoup(200, 1.0F, 6)},
+                        {"sphere", test::closedSphere({0, 0, 0}, 1.0F, 64, 128)}};
+  for (const Case& c : cases)
+    for (const float spread : {0.02F, 0.3F, 1.0F}) {
+      SCOPED_TRACE(fmt::format("{}, spread {}", c.name, spread));
+      const auto rays = raysOfSomeWays(spread, 11);
+      const auto hits = agreedHits(lab, test::sceneOf(c.mesh), rays);
+      const auto met =
+          std::count_if(hits.begin(), hits.end(), [](const TestHit& h) { return h.primitive >= 0; });
+      EXPECT_GT(met, static_cast<std::ptrdiff_t>(rays.size() / 10));
+    }
 }
 
 /// Gravel of millimetres on a plain a hundred kilometres wide. The plain's corners round to as much as

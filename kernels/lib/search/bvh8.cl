@@ -35,26 +35,6 @@ INLINE void leafExtents(const Leaf* leaf, int axis, float8* lo, float8* hi) {
 
 INLINE uint leafLanes(const Leaf* leaf) { return (1u << leaf->count) - 1u; }
 
-/// One bit for each lane of a comparison.
-INLINE uint laneBits(int8 mask) {
-#if defined(__AVX__) && defined(CLANG_FOR_PROCESSOR)
-  return (uint)__builtin_ia32_movmskps256(as_float8(mask));
-#else
-  const int8 bits = mask & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
-  const int4 a = bits.lo | bits.hi;
-  const int2 b = a.lo | a.hi;
-  return (uint)(b.x | b.y);
-#endif
-}
-
-INLINE uint lowestBit(uint bits) {
-#ifdef CLANG_FOR_PROCESSOR
-  return (uint)__builtin_ctz(bits);
-#else
-  return popcount((bits & (0u - bits)) - 1u);
-#endif
-}
-
 /// Children of a node as keys: the bits of the distance at which each is entered (not negative, so that they sort as
 /// integers), with the lane in the lowest three bits; NO_CHILD where there is none. A key is never above its distance.
 #define NO_CHILD 0xffffffffu

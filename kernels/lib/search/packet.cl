@@ -11,8 +11,8 @@ typedef struct {
   float16 nearBias[3], farBias[3];  // as in Bvh8Ray
   float16 shear[3];                 // sx, sy, sz of each lane's own axes
   int16 kz;                         // largest axis of the direction
-  int axes[3];                      // 1: some lane has this axis
-  int mixed;                        // 1: lanes differ in it
+  int axes[3];                      // 1: some lane of those that go together has this axis
+  int mixed;                        // 1: they differ in it
 #if HAS(STRAIGHT)
   float16 passedOrder, tMin;  // as in Passed
   uint16 passedPrimitive;
@@ -33,6 +33,12 @@ typedef struct {
 
 INLINE float16 boxInverse16(float16 d) { return fabs(d) > 1e-18f ? 1.0f / d : copysign((float16)(INFINITY), d); }
 
+/// The largest axes of `lanes`, one bit for each.
+INLINE void findAxes(Packet* p, uint lanes) {
+  for (int a = 0; a < 3; ++a) p->axes[a] = (lanes & laneBits16(p->kz == a)) != 0;
+  p->mixed = p->axes[0] + p->axes[1] + p->axes[2] > 1;
+}
+
 INLINE Packet makePacket(const float16* o, const float16* d) {
   Packet p;
   for (int a = 0; a < 3; ++a) {
@@ -47,10 +53,9 @@ INLINE Packet makePacket(const float16* o, const float16* d) {
   const int16 xFirst = (ax > ay) & (ax > az);
   const int16 yFirst = ~(ax > ay) & (ay > az);
   p.kz = select(select((int16)(2), (int16)(1), yFirst), (int16)(0), xFirst);
-  p.axes[0] = anyOf16(xFirst);
-  p.axes[1] = anyOf16(yFirst);
-  p.axes[2] = anyOf16(~(xFirst | yFirst));
-  p.mixed = p.axes[0] + p.axes[1] + p.axes[2] > 1;
+#if !HAS(TREE)
+  findAxes(&p, ~0u);  // of all: they go together
+#endif
   const float16 dkz = select(select(d[2], d[1], yFirst), d[0], xFirst);
   const float16 dkx = select(select(d[0], d[2], yFirst), d[1], xFirst);
   const float16 dky = select(select(d[1], d[0], yFirst), d[2], xFirst);
@@ -66,9 +71,9 @@ INLINE Packet makePacket(const float16* o, const float16* d) {
 
 /// tMax, but < 0 in lanes with NaN or infinite parts.
 INLINE float16 wakeFinite(const Packet* p, float16 tMax) {
-  int16 finite = isfinite(p->o[0]) & isfinite(p->o[1]) & isfinite(p->o[2]);
-  finite &= isfinite(p->d[0]) & isfinite(p->d[1]) & isfinite(p->d[2]);
-  return select((float16)(-1.0f), tMax, finite);
+  float16 zero = (float16)(0.0f);  // stays 0 but for NaN and infinite parts
+  for (int a = 0; a < 3; ++a) zero += (p->o[a] - p->o[a]) + (p->d[a] - p->d[a]);
+  return select((float16)(-1.0f), tMax, zero == 0.0f);
 }
 
 /// clampToBox for the rays of a packet.

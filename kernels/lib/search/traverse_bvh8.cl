@@ -9,6 +9,7 @@
 typedef struct {
   float o[3][PACKET_RAYS], d[3][PACKET_RAYS];
   float inverse[3][PACKET_RAYS], shear[3][PACKET_RAYS];  // as in Ray: sx, sy, sz
+  float nearBias[3][PACKET_RAYS], farBias[3][PACKET_RAYS];
   int kz[PACKET_RAYS];
   float t[PACKET_RAYS];  // < 0: asleep; else how far to look, and afterwards the distance of the nearest hit
   uint triangle[PACKET_RAYS];
@@ -37,31 +38,31 @@ typedef struct {
 #endif
 } Bvh8Ray;
 
-INLINE Bvh8Ray bvh8Ray(const RayTable* rays, uint lane) {
-  Bvh8Ray r;
-  r.lane = lane;
-  r.regular = 1;
+/// Written in place, axis by axis: a copy of what was just written in parts would wait for it.
+INLINE void takeRay(const RayTable* rays, uint lane, Bvh8Ray* r) {
+  r->lane = lane;
+  r->regular = 1;
+#pragma unroll
   for (int a = 0; a < 3; ++a) {
-    r.o[a] = rays->o[a][lane];
-    r.inverse[a] = rays->inverse[a][lane];
-    const float bias = -r.o[a] * r.inverse[a], margin = fabs(bias) * BIAS_MARGIN;
-    r.nearBias[a] = bias - margin;
-    r.farBias[a] = bias + margin;
-    r.nearPlane[a] = a * 8 + (r.inverse[a] >= 0.0f ? 0 : 24);
-    if (!(fabs(r.inverse[a]) < INFINITY)) r.regular = 0;
+    const float inverse = rays->inverse[a][lane];
+    r->o[a] = rays->o[a][lane];
+    r->inverse[a] = inverse;
+    r->nearBias[a] = rays->nearBias[a][lane];
+    r->farBias[a] = rays->farBias[a][lane];
+    r->nearPlane[a] = a * 8 + (inverse >= 0.0f ? 0 : 24);
+    r->regular &= fabs(inverse) < INFINITY;
   }
-  r.kz = rays->kz[lane];
-  r.kx = r.kz == 2 ? 0 : r.kz + 1;
-  r.ky = r.kx == 2 ? 0 : r.kx + 1;
-  r.sx = rays->shear[0][lane];
-  r.sy = rays->shear[1][lane];
-  r.sz = rays->shear[2][lane];
+  r->kz = rays->kz[lane];
+  r->kx = r->kz == 2 ? 0 : r->kz + 1;
+  r->ky = r->kx == 2 ? 0 : r->kx + 1;
+  r->sx = rays->shear[0][lane];
+  r->sy = rays->shear[1][lane];
+  r->sz = rays->shear[2][lane];
 #if HAS(STRAIGHT)
-  r.passed.order = rays->passedOrder[lane];
-  r.passed.primitive = rays->passedPrimitive[lane];
-  r.passed.tMin = r.passed.order * PASSED_MARGIN;
+  r->passed.order = rays->passedOrder[lane];
+  r->passed.primitive = rays->passedPrimitive[lane];
+  r->passed.tMin = r->passed.order * PASSED_MARGIN;
 #endif
-  return r;
 }
 
 /// The eight children of a node: mask of those that the ray enters before tMax, and where. Lets in all that childEntry
@@ -210,15 +211,15 @@ typedef struct {
   int groups[BVH8_DEPTH];
 } Walk;
 
-/// One step: a child taken from the stack, a node opened or a leaf tested. 0 at the end of the way.
+/// One step: what waits and lies behind the hit is left, then a node opened or a leaf tested. 0 at the end of the way.
 INLINE int step(const SceneView* scene, Walk* w) {
-  const uint least = least8(w->keys);
-  if (least > w->limit) {
+  uint least = least8(w->keys);
+  while (least > w->limit) {
     if (w->depth == 0) return 0;
     --w->depth;
     w->keys = vload8(w->depth, w->waiting);
     w->group = w->groups[w->depth];
-    return 1;
+    least = least8(w->keys);
   }
   const uint8 keys = select(w->keys, (uint8)(NO_CHILD), as_uint8(w->keys == least));
   const int child = as_int(scene->bvh8Nodes[(size_t)w->group * BVH8_NODE_FLOATS + 48 + (least & 7u)]);
@@ -249,7 +250,7 @@ INLINE uint nextAwake(const RayTable* rays, uint* next) {
 INLINE int startWalk(const SceneView* scene, const RayTable* rays, uint* next, Walk* w) {
   const uint lane = nextAwake(rays, next);
   if (lane == PACKET_RAYS) return 0;
-  w->r = bvh8Ray(rays, lane);
+  takeRay(rays, lane, &w->r);
   w->best = noHit(rays->t[lane]);
   COUNT(w->best.nodes, 1);
   w->limit = keyLimit(w->best.t);
@@ -343,7 +344,7 @@ INLINE int stepShadow(const SceneView* scene, const RayTable* rays, ShadowWalk* 
 INLINE int startShadow(const SceneView* scene, const RayTable* rays, uint* next, ShadowWalk* w) {
   const uint lane = nextAwake(rays, next);
   if (lane == PACKET_RAYS) return 0;
-  w->r = bvh8Ray(rays, lane);
+  takeRay(rays, lane, &w->r);
   w->tMax = rays->t[lane];
   w->stops[0] = w->stops[1] = w->stops[2] = 0;
   float8 entry;

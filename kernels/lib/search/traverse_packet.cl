@@ -1,12 +1,13 @@
 // Searches for sixteen neighbouring rays at once, one in each lane of a float16. The arithmetic of a lane is that of
 // the single-ray search, bit for bit, so the two agree (packet.cl).
 //
-// Through the eight-wide tree the packet goes down once, as long as its rays run the same way: bounds of its origins
+// Through the eight-wide tree those rays of a packet go down together that run the same way: bounds of their origins
 // and directions are held against eight boxes in the lanes of a float8 (interval arithmetic; Boulos, Wald, Shirley,
 // "Geometric and Arithmetic Culling Methods for Entire Ray Packets", 2006), then sixteen rays against each box that is
-// left, and only triangles whose own boxes the bounds meet are tested. Rays that share no way are walked one by one.
-#include "lib/search/packet.cl"
-#include "lib/search/traverse_bvh8.cl"
+// left, and only triangles whose own boxes the bounds meet are tested. Rays that share no way, or no longer do, are
+// walked one by one.
+#include "lib/search/alike.cl"
+#include "lib/search/part_packet.cl"
 
 #if HAS(PACKETS)
 
@@ -32,48 +33,6 @@ void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint
 }
 
 #else
-
-/// Bounds of a packet: what can make the distance to a plane least and greatest.
-typedef struct {
-  float nearOrigin[3];  // origin for which the near plane's distance is least
-  float farOrigin[3];   // origin for which the far plane's distance is greatest
-  float inverseLo[3], inverseHi[3];
-  int nearPlane[3];  // floats from a node to its near planes: 8 · axis, and 24 for hi
-  int down[3];       // 1: directions are negative
-  int together;      // 1: the rays run the same way, no direction parallel to an axis
-#if HAS(STRAIGHT)
-  float tMin;        // the least of the rays
-#endif
-} PacketBounds;
-
-/// Largest difference between directions along an axis for which rays run the same way; from 0.1 to 0.25 nothing
-/// changes, above it rays of a second bounce drag one another along (experiments/).
-#define PACKET_SPREAD 0.25f
-
-INLINE PacketBounds boundPacket(const Packet* p) {
-  PacketBounds b;
-  b.together = 1;
-#if HAS(STRAIGHT)
-  b.tMin = least16(p->tMin);
-#endif
-  for (int a = 0; a < 3; ++a) {
-    const float lo = least16(p->o[a]), hi = greatest16(p->o[a]);
-    b.inverseLo[a] = least16(p->inverse[a]);
-    b.inverseHi[a] = greatest16(p->inverse[a]);
-    b.down[a] = b.inverseHi[a] < 0.0f;
-    b.nearOrigin[a] = b.down[a] ? lo : hi;
-    b.farOrigin[a] = b.down[a] ? hi : lo;
-    b.nearPlane[a] = a * 8 + 24 * b.down[a];
-    if (!(b.inverseLo[a] > 0.0f || b.inverseHi[a] < 0.0f)) b.together = 0;
-    if (!(b.inverseLo[a] > -INFINITY && b.inverseHi[a] < INFINITY)) b.together = 0;
-    if (!(greatest16(p->d[a]) - least16(p->d[a]) <= PACKET_SPREAD)) b.together = 0;
-  }
-  // 0 but for lanes with NaN or infinite parts: those go alone.
-  const float16 zero = (p->o[0] - p->o[0]) + (p->o[1] - p->o[1]) + (p->o[2] - p->o[2]) + (p->d[0] - p->d[0]) +
-                       (p->d[1] - p->d[1]) + (p->d[2] - p->d[2]);
-  if (!allOf16(zero == 0.0f)) b.together = 0;
-  return b;
-}
 
 /// Distances of the planes `at` from `origin`, the least and the greatest for the directions of a packet.
 INLINE float8 leastDistance(float8 at, float origin, float inverseLo, float inverseHi) {
@@ -117,9 +76,9 @@ INLINE int8 packetChildren(const PacketBounds* b, __global const float* node, fl
   return packetEntries8(b, near, far, tMax, entry);
 }
 
-/// True if some ray of the packet enters lane `child` of a node before its own tMax, by the same fma as childEntries8.
-/// For packets that run together.
-INLINE int entersChild(const Packet* p, const PacketBounds* b, float16 tMax, __global const float* node, uint child) {
+/// One bit for each ray of the packet that enters lane `child` of a node before its own tMax, by the same fma as
+/// childEntries8. For packets that run together.
+INLINE uint entersChild(const Packet* p, const PacketBounds* b, float16 tMax, __global const float* node, uint child) {
   __global const float* box = node + child;
   const float16 nearX = fma((float16)(box[b->nearPlane[0]]), p->inverse[0], p->nearBias[0]);
   const float16 nearY = fma((float16)(box[b->nearPlane[1]]), p->inverse[1], p->nearBias[1]);
@@ -134,7 +93,7 @@ INLINE int entersChild(const Packet* p, const PacketBounds* b, float16 tMax, __g
 #endif
   const float16 enter = largest16(nearX, nearY, nearZ, begin);
   const float16 leave = smallest16(farX, farY, farZ, tMax);
-  return anyOf16(enter <= leave * FAR_WIDENING);
+  return laneBits16(enter <= leave * FAR_WIDENING);
 }
 
 /// Triangles of a leaf whose own boxes the packet may meet.
@@ -150,45 +109,11 @@ INLINE uint packetTriangles(const PacketBounds* b, const Leaf* leaf, float tMax)
   return laneBits(packetEntries8(b, near, far, tMax, &entry)) & leafLanes(leaf);
 }
 
-INLINE RayTable tableOf(const Packet* p, float16 tMax) {
-  RayTable rays;
-  for (int a = 0; a < 3; ++a) {
-    vstore16(p->o[a], 0, rays.o[a]);
-    vstore16(p->d[a], 0, rays.d[a]);
-  }
-  for (int a = 0; a < 3; ++a) {
-    vstore16(p->inverse[a], 0, rays.inverse[a]);
-    vstore16(p->shear[a], 0, rays.shear[a]);
-  }
-  vstore16(p->kz, 0, rays.kz);
-  vstore16(wakeFinite(p, tMax), 0, rays.t);
-#if HAS(STRAIGHT)
-  vstore16(p->passedOrder, 0, rays.passedOrder);
-  vstore16(p->passedPrimitive, 0, rays.passedPrimitive);
-  for (int i = 0; i < PACKET_RAYS; ++i) rays.order[i] = rays.t[i];
-#endif
-  return rays;
-}
-
-/// best: t < 0 in lanes that sleep, MAXFLOAT in the others, nothing met (det 1).
-void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
-  const PacketBounds bounds = boundPacket(p);
-  if (!bounds.together) {
-    RayTable rays = tableOf(p, best->t);
-    nearestApart(scene, &rays);
-    best->t = vload16(0, rays.t);
-    best->triangle = vload16(0, rays.triangle);
-    best->v = vload16(0, rays.b1);
-    best->w = vload16(0, rays.b2);
-#if HAS(STRAIGHT)
-    best->order = vload16(0, rays.order);
-#endif
-#if HAS(COST)
-    best->nodes = vload16(0, rays.nodes);
-    best->tests = vload16(0, rays.tests);
-#endif
-    return;
-  }
+/// Nearest hits of the rays in `lanes`, which are alike; the others of `best` sleep.
+/// rays: the packet's, once parted.
+void nearestTogether(const SceneView* scene, const Packet* p, uint lanes, PacketHit* best, RayTable* rays,
+                     int* parted) {
+  const PacketBounds bounds = boundPacket(p, lanes);
   // As a single ray's way (Walk), but that a child is looked at more closely before it is visited.
   uint waiting[8 * BVH8_DEPTH];
   int groups[BVH8_DEPTH];
@@ -209,8 +134,16 @@ void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
     }
     keys = select(keys, (uint8)(NO_CHILD), as_uint8(keys == least));
     __global const float* node = scene->bvh8Nodes + (size_t)group * BVH8_NODE_FLOATS;
-    if (!entersChild(p, &bounds, best->t, node, least & 7u)) continue;
+    const uint entering = entersChild(p, &bounds, best->t, node, least & 7u);
+    if (entering == 0) continue;
     const int child = as_int(node[48 + (least & 7u)]);
+    if (popcount(entering) <= PACKET_FEW) {
+      if (!*parted) *rays = tableOf(p, best->t), *parted = 1;
+      nearestBelow(scene, rays, entering, child, best);
+      tMax = greatest16(best->t);
+      limit = keyLimit(tMax);
+      continue;
+    }
     if (child < 0) {
       const Leaf leaf = leafOf(scene, child);
       int met = 0;
@@ -234,15 +167,56 @@ void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
   }
 }
 
-/// tMax: lengths, < 0 in lanes that sleep; -inf afterwards where the light is blocked. stops: [3][16].
-void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint* stops) {
-  const PacketBounds bounds = boundPacket(p);
-  if (!bounds.together) {
-    RayTable rays = tableOf(p, *tMax);
-    occludedApart(scene, &rays, stops);
-    *tMax = vload16(0, rays.t);
-    return;
+/// Nearest hits of `lanes`, one by one.
+void nearestOneByOne(const SceneView* scene, const Packet* p, int16 lanes, PacketHit* best) {
+  RayTable rays = tableOf(p, select((float16)(-1.0f), best->t, lanes));
+  nearestApart(scene, &rays);
+  best->t = select(best->t, vload16(0, rays.t), lanes);
+  best->triangle = select(best->triangle, vload16(0, rays.triangle), as_uint16(lanes));
+  best->v = select(best->v, vload16(0, rays.b1), lanes);
+  best->w = select(best->w, vload16(0, rays.b2), lanes);
+  best->det = select(best->det, (float16)(1.0f), lanes);
+#if HAS(STRAIGHT)
+  best->order = select(best->order, vload16(0, rays.order), lanes);
+#endif
+#if HAS(COST)
+  best->nodes = select(best->nodes, vload16(0, rays.nodes), as_uint16(lanes));
+  best->tests = select(best->tests, vload16(0, rays.tests), as_uint16(lanes));
+#endif
+}
+
+/// best: t < 0 in lanes that sleep, MAXFLOAT in the others, nothing met (det 1).
+void nearestPacket(const SceneView* scene, Packet* p, PacketHit* best) {
+  const float16 asleep = (float16)(-1.0f);
+  best->t = wakeFinite(p, best->t);
+#if HAS(STRAIGHT)
+  best->order = best->t;
+#endif
+  Lanes lanes = lanesOf(p, best->t);
+  RayTable rays;
+  int parted = 0;
+  for (uint bits = nextGroup(p, &lanes); bits != 0; bits = nextGroup(p, &lanes)) {
+    const int16 same = lanesOfBits(bits);
+    const float16 others = best->t;
+    best->t = select(asleep, others, same);
+#if HAS(STRAIGHT)
+    const float16 otherOrders = best->order;
+    best->order = select(asleep, otherOrders, same);
+#endif
+    findAxes(p, bits);
+    nearestTogether(scene, p, bits, best, &rays, &parted);
+    best->t = select(others, best->t, same);
+#if HAS(STRAIGHT)
+    best->order = select(otherOrders, best->order, same);
+#endif
   }
+  if (lanes.alone != 0) nearestOneByOne(scene, p, lanesOfBits(lanes.alone), best);
+}
+
+/// As nearestTogether: tMax < 0 in all other lanes.
+void occludedTogether(const SceneView* scene, const Packet* p, uint lanes, float16* tMax, uint* stops, RayTable* rays,
+                      int* parted) {
+  const PacketBounds bounds = boundPacket(p, lanes);
   uchar waiting[BVH8_DEPTH];
   int groups[BVH8_DEPTH];
   int depth = 0, group = 0;
@@ -259,8 +233,16 @@ void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint
     __global const float* node = scene->bvh8Nodes + (size_t)group * BVH8_NODE_FLOATS;
     const uint at = lowestBit(bits);
     bits &= bits - 1;
-    if (!entersChild(p, &bounds, *tMax, node, at)) continue;
+    const uint entering = entersChild(p, &bounds, *tMax, node, at);
+    if (entering == 0) continue;
     const int child = as_int(node[48 + at]);
+    if (popcount(entering) <= PACKET_FEW) {
+      if (!*parted) *rays = tableOf(p, *tMax), *parted = 1;
+      if (!occludedBelow(scene, rays, entering, child, (float*)tMax, stops)) continue;
+      end = greatest16(*tMax);
+      if (end < 0.0f) return;
+      continue;
+    }
     if (child < 0) {
       const Leaf leaf = leafOf(scene, child);
       int met = 0;
@@ -280,6 +262,27 @@ void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint
     bits = laneBits(packetChildren(&bounds, scene->bvh8Nodes + (size_t)child * BVH8_NODE_FLOATS, end, &entry));
     group = child;
   }
+}
+
+/// tMax: lengths, < 0 in lanes that sleep; -inf afterwards where the light is blocked. stops: [3][16].
+void occludedPacket(const SceneView* scene, Packet* p, float16* tMax, uint* stops) {
+  const float16 asleep = (float16)(-1.0f);
+  *tMax = wakeFinite(p, *tMax);
+  Lanes lanes = lanesOf(p, *tMax);
+  RayTable rays;
+  int parted = 0;
+  for (uint bits = nextGroup(p, &lanes); bits != 0; bits = nextGroup(p, &lanes)) {
+    const int16 same = lanesOfBits(bits);
+    float16 own = select(asleep, *tMax, same);
+    findAxes(p, bits);
+    occludedTogether(scene, p, bits, &own, stops, &rays, &parted);
+    *tMax = select(*tMax, own, same);
+  }
+  if (lanes.alone == 0) return;
+  const int16 alone = lanesOfBits(lanes.alone);
+  rays = tableOf(p, select(asleep, *tMax, alone));
+  occludedApart(scene, &rays, stops);
+  *tMax = select(*tMax, vload16(0, rays.t), alone);
 }
 #endif
 

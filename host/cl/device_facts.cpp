@@ -58,7 +58,8 @@ void learnFacts(Compute& compute) {
   for (const Finding& finding : probe.findings)
     if (finding.verdict == Verdict::Wrong)
       throw ClError(
-          fmt::format("{} computes wrongly ({}: {}): no picture is drawn on it; take another --device",
+          fmt::format("{} computes wrongly ({}: {}): no picture is drawn on it; `whittle check` "
+                      "tells more, --device takes another",
                       compute.device().name, finding.name, finding.seen));
   remember(compute.device(), probe.facts);
   compute.know(probe.facts);

@@ -27,7 +27,8 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
                         __global const float* rays,  // [RAY_PLANES][capacity]
                         __global float* hits,        // [hitPlanes][capacity]
                         const uint hitPlanes,
-                        const uint continued) {  // 1: some rays went straight on (RAY_AFTER_…)
+                        const uint continued,       // 1: some rays went straight on (RAY_AFTER_…)
+                        __global uint* counters) {  // COUNTER_SPENT_WALK; may be null
   const SceneView scene = SCENE_VIEW;
   const size_t stride = capacity;
 #if HAS(PACKETS)
@@ -75,17 +76,19 @@ __kernel void intersect(SCENE_PARAMS, const uint first, const uint count, const 
 #else
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
+  uint left = LOOP_BUDGET;
 #if HAS(STRAIGHT)
   Ray r = makeRay(loadReal3(rays, capacity, RAY_O, first + i), loadReal3(rays, capacity, RAY_D, first + i));
   if (continued)
     r.passed = passedSurface(&scene, rays[RAY_AFTER_ORDER * stride + first + i],
                              as_uint(rays[RAY_AFTER_TRIANGLE * stride + first + i]));
-  const Hit hit = nearestSingle(&scene, &r);
+  const Hit hit = nearestSingle(&scene, &r, &left);
   hits[HIT_ORDER * stride + i] = hit.order;
 #else
   const Ray r = makeRay(loadReal3(rays, capacity, RAY_O, first + i), loadReal3(rays, capacity, RAY_D, first + i));
-  const Hit hit = nearestSingle(&scene, &r);
+  const Hit hit = nearestSingle(&scene, &r, &left);
 #endif
+  tellSpent(left, counters);
   if (hitPlanes > HIT_T) hits[HIT_T * stride + i] = hit.t;
   hits[HIT_TRIANGLE * stride + i] = as_float(hit.triangle);
   hits[HIT_B1 * stride + i] = hit.b1;

@@ -48,7 +48,8 @@ INLINE void addLight(const ShadowLanes* s, int16 blocked, const uint* stops, __g
 __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity, const uint set,
                       __global const uint* shadowQueue,  // [count] entries with a shadow ray, in order
                       __global const float* shadows,     // [sets][SHADOW_PLANES][capacity] candidates by entry
-                      __global float* entryRadiance) {   // [3][capacity]
+                      __global float* entryRadiance,     // [3][capacity]
+                      __global uint* counters) {         // COUNTER_SPENT_WALK; may be null
   const SceneView scene = SCENE_VIEW;
   shadows += (size_t)set * SHADOW_PLANES * capacity;
 #if HAS(PACKETS)
@@ -80,7 +81,9 @@ __kernel void occlude(SCENE_PARAMS, const uint count, const uint capacity, const
   if (i >= count) return;
   const uint entry = shadowQueue[i];
   const Ray r = makeRay(loadReal3(shadows, capacity, SHADOW_O, entry), loadReal3(shadows, capacity, SHADOW_D, entry));
-  const Real3 transmittance = transmittanceSingle(&scene, &r, shadows[(size_t)SHADOW_LENGTH * capacity + entry]);
+  uint left = LOOP_BUDGET;
+  const Real3 transmittance = transmittanceSingle(&scene, &r, shadows[(size_t)SHADOW_LENGTH * capacity + entry], &left);
+  tellSpent(left, counters);
   if (!anyPositive(transmittance)) return;
   const Real3 contribution = loadReal3(shadows, capacity, SHADOW_CONTRIBUTION, entry);
   const Real3 before = loadReal3(entryRadiance, capacity, 0, entry);

@@ -1,6 +1,6 @@
 # Imports go down only. Holds every #include under host/ against the whittle_library(…) lines of CMakeLists.txt: a room
 # includes the rooms its own line names, names none that it doesn't include, and the rooms form no circle. Of kernels/
-# the host sees shared/ alone; there a stage includes lib, lib includes lib and shared, shared nothing but itself.
+# the host sees shared/ alone; there a stage or a probe includes lib, lib includes lib and shared, shared itself alone.
 # And nobody but host/cli/speech.cpp speaks.
 # Reads ROOT, the repository's folder.
 cmake_minimum_required(VERSION 3.25)
@@ -90,8 +90,9 @@ foreach(room IN LISTS rooms_found)
   endforeach()
 endforeach()
 
-# kernels/: stages, lib, shared.
+# kernels/: stages and probes, lib, shared.
 set(sees_stage lib)
+set(sees_probes lib)
 set(sees_lib lib shared)
 set(sees_shared shared)
 file(GLOB_RECURSE sources RELATIVE ${ROOT}/kernels ${ROOT}/kernels/*.cl ${ROOT}/kernels/*.h)

@@ -6,11 +6,12 @@
 namespace whittle {
 
 std::vector<LightGroup> lightGroups(const Scene& scene, const PrunedScene& pruned,
-                                    const SceneFeatures& features) {
+                                    const SceneFeatures& features, std::uint32_t most) {
   std::vector<LightGroup> groups(1);
   for (const std::uint32_t light : pruned.lights) {
     const bool shadowed = features.has(Feature::SHADOWS) && scene.lights[light].castsShadows;
-    if (const LightGroup last = groups.back(); last.waiting == kLightsWaiting)
+    if (const LightGroup last = groups.back();
+        last.waiting == kLightsWaiting || last.end - last.first == most)
       groups.push_back({last.end, last.end, 0});
     LightGroup& own = groups.back();
     ++own.end;

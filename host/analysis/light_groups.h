@@ -23,9 +23,10 @@ struct LightGroup {
   std::uint32_t waiting = 0;
 };
 
-/// All lights, at most kLightsWaiting in a group that wait; one group without a light where there are none.
+/// All lights, at most kLightsWaiting in a group that wait and `most` in all; one group without a light where
+/// there are none.
 std::vector<LightGroup> lightGroups(const Scene& scene, const PrunedScene& pruned,
-                                    const SceneFeatures& features);
+                                    const SceneFeatures& features, std::uint32_t most = 0xffffffffU);
 
 /// The most that wait in any group: sets of candidates that the queues need.
 std::uint32_t mostWaiting(const std::vector<LightGroup>& groups);

@@ -10,6 +10,7 @@
 #include "bench/embree_baseline.h"
 #include "bench/query_runner.h"
 #include "bvh/bvh8.h"
+#include "cl/device_facts.h"
 #include "scene/input_error.h"
 
 namespace whittle {
@@ -52,6 +53,7 @@ class Bench {
         options_(options),
         compute_(selectDevice(listDevices(), options.device)),
         modes_(haveEmbree() ? embreeModes(options.robustOnly) : std::vector<EmbreeMode>{}) {
+    learnFacts(compute_);
     if (scene.triangles.empty()) throw InputError(scene.file + ": no triangles to search");
     build();
   }

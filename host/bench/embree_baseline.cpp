@@ -5,7 +5,11 @@
 #include <fmt/format.h>
 
 #ifdef WHITTLE_EMBREE
+#if WHITTLE_EMBREE >= 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -41,12 +45,41 @@ double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-RTCIntersectContext contextFor(const EmbreeMode& mode) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = mode.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  return context;
-}
+/// A query as either version of Embree is asked: version 4 takes the hint with other arguments, behind the
+/// rays.
+class Query {
+ public:
+#if WHITTLE_EMBREE >= 4
+  explicit Query(const EmbreeMode& mode) {
+    rtcInitIntersectArguments(&nearest_);
+    rtcInitOccludedArguments(&any_);
+    nearest_.flags = any_.flags = mode.coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  }
+  void nearest(RTCScene scene, RTCRayHit& r) { rtcIntersect1(scene, &r, &nearest_); }
+  void nearest(RTCScene scene, RTCRayHit8& r) { rtcIntersect8(kAll, scene, &r, &nearest_); }
+  void any(RTCScene scene, RTCRay& r) { rtcOccluded1(scene, &r, &any_); }
+  void any(RTCScene scene, RTCRay8& r) { rtcOccluded8(kAll, scene, &r, &any_); }
+#else
+  explicit Query(const EmbreeMode& mode) {
+    rtcInitIntersectContext(&context_);
+    context_.flags =
+        mode.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  }
+  void nearest(RTCScene scene, RTCRayHit& r) { rtcIntersect1(scene, &context_, &r); }
+  void nearest(RTCScene scene, RTCRayHit8& r) { rtcIntersect8(kAll, scene, &context_, &r); }
+  void any(RTCScene scene, RTCRay& r) { rtcOccluded1(scene, &context_, &r); }
+  void any(RTCScene scene, RTCRay8& r) { rtcOccluded8(kAll, scene, &context_, &r); }
+#endif
+
+ private:
+  alignas(32) static constexpr int kAll[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
+#if WHITTLE_EMBREE >= 4
+  RTCIntersectArguments nearest_;
+  RTCOccludedArguments any_;
+#else
+  RTCIntersectContext context_;
+#endif
+};
 
 constexpr std::size_t kBlock = 8, kGrain = 512;  // blocks of rays; blocks a task takes at least
 
@@ -158,24 +191,23 @@ double EmbreeBaseline::nearest(const EmbreeMode& mode) {
   };
   if (mode.width == 1)
     return s.timed([&](std::size_t block) {
-      RTCIntersectContext context = contextFor(mode);
+      Query query(mode);
       for (std::size_t i = block * kBlock; i < block * kBlock + kBlock; ++i) {
         RTCRayHit r;
         r.ray = s.rays[i];
         if (i < s.count) r.ray.tfar = std::numeric_limits<float>::infinity();
         r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(s.scene, &context, &r);
+        query.nearest(s.scene, r);
         s.hits[i] = hitOf(r.ray.tfar, r.hit.geomID, r.hit.primID);
       }
     });
   return s.timed([&](std::size_t block) {
-    RTCIntersectContext context = contextFor(mode);
-    alignas(32) static constexpr int kAll[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
+    Query query(mode);
     RTCRayHit8 r;
     r.ray = s.blocks[block];
     for (float& far : r.ray.tfar) far = far < 0 ? far : std::numeric_limits<float>::infinity();
     for (unsigned& id : r.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect8(kAll, s.scene, &context, &r);
+    query.nearest(s.scene, r);
     for (std::size_t k = 0; k < kBlock; ++k)
       s.hits[block * kBlock + k] = hitOf(r.ray.tfar[k], r.hit.geomID[k], r.hit.primID[k]);
   });
@@ -185,18 +217,17 @@ double EmbreeBaseline::any(const EmbreeMode& mode) {
   State& s = *state_;
   if (mode.width == 1)
     return s.timed([&](std::size_t block) {
-      RTCIntersectContext context = contextFor(mode);
+      Query query(mode);
       for (std::size_t i = block * kBlock; i < block * kBlock + kBlock; ++i) {
         RTCRay r = s.rays[i];
-        rtcOccluded1(s.scene, &context, &r);
+        query.any(s.scene, r);
         s.blocked[i] = r.tfar < 0;
       }
     });
   return s.timed([&](std::size_t block) {
-    RTCIntersectContext context = contextFor(mode);
-    alignas(32) static constexpr int kAll[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
+    Query query(mode);
     RTCRay8 r = s.blocks[block];
-    rtcOccluded8(kAll, s.scene, &context, &r);
+    query.any(s.scene, r);
     for (std::size_t k = 0; k < kBlock; ++k) s.blocked[block * kBlock + k] = r.tfar[k] < 0;
   });
 }

@@ -1,4 +1,4 @@
-// Embree, the opponent: the same rays, the same threads, its own tree (Wald et al. 2014; Debian's 3.13).
+// Embree, the opponent: the same rays, the same threads, its own tree (Wald et al. 2014; versions 3 and 4).
 #pragma once
 
 #include <memory>

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <limits>
 
+#include "cl/device_facts.h"
 #include "cl/kernel_source.h"
 #include "kernels/shared/layout.h"
 
@@ -44,7 +45,10 @@ const std::vector<QueryKernel>& queryKernels() {
 QueryRunner::QueryRunner(Compute& compute, const Scene& scene, const TriTree& tree, const QueryKernel& kernel,
                          const std::optional<std::filesystem::path>& kernelFolder)
     : compute_(compute), tree_(tree), kernel_(kernel) {
-  const std::string options = fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x}", kernel.features);
+  const std::uint32_t budget = loopBudget(compute.device());
+  const std::string options =
+      fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x} -D LOOP_BUDGET={}", kernel.features, budget);
+  if (budget > 0) counters_ = compute_.upload("counters", std::vector<std::uint32_t>(COUNTERS, 0));
   const std::vector programs{
       compute_.build(assembleKernelSource({"intersect.cl", "occlude.cl"}, kernelFolder), options)};
   const SceneFeatures features = SceneFeatures::ofBits(kernel.features);
@@ -90,10 +94,21 @@ void QueryRunner::load(const RaySet& rays) {
 double QueryRunner::nearest() {
   clTry("waiting for earlier kernels", [&] { compute_.queue().finish(); });
   const auto start = std::chrono::steady_clock::now();
-  stages_->run(stages::Intersect{
-      .scene = scene_, .count = count_, .capacity = capacity_, .rays = rays_, .hits = hits_});
+  stages_->run(stages::Intersect{.scene = scene_,
+                                 .count = count_,
+                                 .capacity = capacity_,
+                                 .rays = rays_,
+                                 .hits = hits_,
+                                 .counters = counters_});
   clTry("waiting for the nearest hits", [&] { compute_.queue().finish(); });
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void QueryRunner::checkWalks() {
+  if (!counters_) return;
+  std::uint32_t spent = 0;
+  compute_.read(counters_, COUNTER_SPENT_WALK * sizeof(std::uint32_t), sizeof(spent), &spent);
+  if (spent != 0) throw ClError(compute_.device().name + ": its driver ends loops before some rays are done");
 }
 
 double QueryRunner::any() {
@@ -105,12 +120,14 @@ double QueryRunner::any() {
                                .capacity = capacity_,
                                .shadowQueue = queue_,
                                .shadows = shadows_,
-                               .entryRadiance = radiance_});
+                               .entryRadiance = radiance_,
+                               .counters = counters_});
   clTry("waiting for the shadow rays", [&] { compute_.queue().finish(); });
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 std::vector<QueryHit> QueryRunner::hits() {
+  checkWalks();
   std::vector<float> planes(std::size_t{HIT_PLANES} * capacity_);
   compute_.read(hits_, 0, planes.size() * sizeof(float), planes.data());
   std::vector<QueryHit> result(count_);
@@ -124,6 +141,7 @@ std::vector<QueryHit> QueryRunner::hits() {
 }
 
 std::vector<bool> QueryRunner::blocked() {
+  checkWalks();
   std::vector<float> light(count_);
   compute_.read(radiance_, 0, count_ * sizeof(float), light.data());
   std::vector<bool> result(count_);

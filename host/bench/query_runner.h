@@ -33,7 +33,8 @@ class QueryRunner {
   /// Seconds that one query of all rays takes, from the first launch to the last result on the device.
   double nearest();
   double any();
-  /// Results of the last nearest() and any(). Shadow rays end before their length.
+  /// Results of the last nearest() and any(). Shadow rays end before their length. Throw ClError where a walk
+  /// was longer than the device lets loops be.
   std::vector<QueryHit> hits();
   std::vector<bool> blocked();
 
@@ -44,6 +45,8 @@ class QueryRunner {
   std::size_t triangleBytes() const;
 
  private:
+  void checkWalks();
+
   Compute& compute_;
   const TriTree& tree_;
   QueryKernel kernel_;
@@ -51,6 +54,7 @@ class QueryRunner {
   std::optional<StageRunner> stages_;
   std::uint32_t count_ = 0, capacity_ = 0;
   Buffer rays_, hits_, shadows_, queue_, radiance_;
+  Buffer counters_;  ///< where walks have a budget
 };
 
 }  // namespace whittle

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <stdexcept>
+#include <thread>
 
 #include "cl/error.h"
 
@@ -27,6 +28,14 @@ std::string kindOf(cl_device_type type) {
   if (type & CL_DEVICE_TYPE_ACCELERATOR) return "accelerator";
   return "other";
 }
+
+/// Drivers that read from the environment how many threads they may start, when they are loaded.
+struct Driver {
+  const char* name;  ///< in that of its platform or device
+  const char* threads;
+};
+constexpr std::array kDrivers{Driver{"Portable Computing Language", "POCL_MAX_PTHREAD_COUNT"},
+                              Driver{"llvmpipe", "LP_NUM_THREADS"}};
 
 std::string whyUnusable(const cl::Device& device) {
   if (!device.getInfo<CL_DEVICE_AVAILABLE>()) return "the driver says it is not available";
@@ -148,8 +157,25 @@ DeviceInfo withThreads(DeviceInfo info, int threads) {
   });
 }
 
+unsigned processorsOf(const DeviceInfo& device) {
+  const unsigned here = std::thread::hardware_concurrency();
+  return device.kind == "cpu" && here > 0 ? std::min(here, device.computeUnits) : device.computeUnits;
+}
+
+bool keepsToThreads(const DeviceInfo& device, int threads) {
+  if (device.computeUnits <= static_cast<unsigned>(threads)) return true;
+  for (const Driver& driver : kDrivers) {
+    const char* const told = std::getenv(driver.threads);
+    if (told && told == std::to_string(threads) &&
+        (device.platform + device.name).find(driver.name) != std::string::npos)
+      return true;
+  }
+  return processorsOf(device) <= static_cast<unsigned>(threads);
+}
+
 void prepareCpuThreads(int threads, int workGroup) {
-  if (threads > 0) setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(threads).c_str(), 1);
+  for (const Driver& driver : kDrivers)
+    if (threads > 0) setenv(driver.threads, std::to_string(threads).c_str(), 1);
   // PoCL keeps the private variables of all items of a group on the stack of the thread that runs it, and
   // says 1024 bytes an item (CL_KERNEL_PRIVATE_MEM_SIZE) whatever they are. Ours have 2.4 kB; most of this is
   // only addresses. Compilers like the 8 MB that threads mostly have.

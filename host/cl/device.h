@@ -9,6 +9,14 @@
 
 namespace whittle {
 
+/// What was found out by trying (cl/device_facts.h); before that, as OpenCL has it.
+struct DeviceFacts {
+  std::uint32_t loopLimit = 0;  ///< iterations after which the driver ends loops; 0: it does not
+  bool givesTimes = true;       ///< of launches
+};
+/// A device that ends loops earlier is not drawn on: what the stages' chunks take would not fit.
+inline constexpr std::uint32_t kLeastLoopLimit = 60000;
+
 struct DeviceInfo {
   int index = 0;  ///< as listed by `whittle devices`
   std::string platform, name, vendor, version, driver;
@@ -22,6 +30,7 @@ struct DeviceInfo {
   bool usable = false;
   std::string reason;  ///< why not, one line
   cl::Device device;
+  DeviceFacts facts;
 
   /// Whether rays are searched for in packets: a CPU whose compiler keeps vectors in vector registers.
   /// (Mesa's rusticl, which spreads work items over them instead, takes minutes to compile the packets.)
@@ -44,9 +53,17 @@ DeviceInfo selectDevice(const DeviceList& list, const std::string& selector);
 /// divides it; else the device as it is. Throws ClError.
 DeviceInfo withThreads(DeviceInfo device, int threads);
 
-/// Before the first OpenCL call of the process: limits PoCL to `threads` CPU threads (0: no limit), which
-/// withThreads can lower later, and gives every thread that is started from now on a stack on which
-/// work-groups of `workGroup` items (0: of the default size) find room.
+/// Processors that run the device's work at once, of a CPU: no more than the machine has, whatever the driver
+/// says of compute units. Of other devices their compute units.
+unsigned processorsOf(const DeviceInfo& device);
+
+/// Whether a device opened for so many threads (> 0) has as many, as far as we can tell: its driver was told
+/// in time, divides its device, or has no more.
+bool keepsToThreads(const DeviceInfo& device, int threads);
+
+/// Before the first OpenCL call of the process: limits PoCL and Mesa's llvmpipe to `threads` CPU threads (0:
+/// no limit), which withThreads can lower later, and gives every thread that is started from now on a stack
+/// on which work-groups of `workGroup` items (0: of the default size) find room.
 void prepareCpuThreads(int threads, int workGroup);
 
 }  // namespace whittle

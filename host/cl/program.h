@@ -39,6 +39,8 @@ class Compute {
   explicit Compute(DeviceInfo device, Memory memory = Memory::Real, Launches launches = Launches::Timed);
 
   const DeviceInfo& device() const { return device_; }
+  /// Of its device, found out by trying (cl/device_facts.h).
+  void know(const DeviceFacts& facts) { device_.facts = facts; }
   cl::CommandQueue& queue() { return queue_; }
   bool timesLaunches() const { return launches_ == Launches::Timed; }
 

@@ -83,6 +83,7 @@ void addCommands(CLI::App& app, int& status, const std::vector<std::string>& arg
   addReference(app, status);
   addInfo(app, status);
   addDevices(app, status);
+  addCheck(app, status);
   addCache(app, status);
   addCompare(app, status);
   addBench(app, status);

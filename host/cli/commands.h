@@ -14,6 +14,7 @@ void addRender(CLI::App& app, int& status, const std::vector<std::string>& argum
 void addReference(CLI::App& app, int& status);
 void addInfo(CLI::App& app, int& status);
 void addDevices(CLI::App& app, int& status);
+void addCheck(CLI::App& app, int& status);
 void addCache(CLI::App& app, int& status);
 void addCompare(CLI::App& app, int& status);
 void addBench(CLI::App& app, int& status);

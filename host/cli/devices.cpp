@@ -25,6 +25,7 @@ void printJson(const DeviceList& list) {
                                {"version", d.version},
                                {"driver", d.driver},
                                {"computeUnits", d.computeUnits},
+                               {"processors", processorsOf(d)},
                                {"globalMemory", d.globalMemory},
                                {"largestBuffer", d.largestBuffer},
                                {"maxWorkGroup", d.maxWorkGroup},
@@ -34,14 +35,20 @@ void printJson(const DeviceList& list) {
   tellJson(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
+/// What holds, where the driver says something else.
+std::string unitsOf(const DeviceInfo& d) {
+  if (processorsOf(d) == d.computeUnits) return formatSome(d.computeUnits, "compute unit", "compute units");
+  return fmt::format("{} (the driver says {} compute units)",
+                     formatSome(processorsOf(d), "processor", "processors"), d.computeUnits);
+}
+
 void printTable(const DeviceList& list) {
   for (const auto& d : list.devices) {
     tell(fmt::format("{}  {}  {}\n", d.index, d.kind, d.name));
     tell(fmt::format("   {}\n", d.platform));
     tell(fmt::format("   {}\n   driver {}\n", d.version, d.driver));
-    tell(fmt::format("   {}, {} of memory, {} at most in one buffer\n",
-                     formatSome(d.computeUnits, "compute unit", "compute units"), formatBytes(d.globalMemory),
-                     formatBytes(d.largestBuffer)));
+    tell(fmt::format("   {}, {} of memory, {} at most in one buffer\n", unitsOf(d),
+                     formatBytes(d.globalMemory), formatBytes(d.largestBuffer)));
     if (!d.usable) tell(fmt::format("   not usable: {}\n", d.reason));
   }
   for (const auto& problem : list.problems) tell(fmt::format("-  {}\n", problem));

@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "cl/compile_turn.h"
+#include "cl/device_facts.h"
 #include "wavefront/stage_runner.h"
 #include "wavefront/stages.h"
 
@@ -53,7 +54,8 @@ std::vector<KernelProgram> generalKernels(const GeneralProgram& program,
 
 CompileTarget usualTarget(const DeviceInfo& device) {
   const std::uint64_t packets = device.suitsPackets() ? bitOf(Feature::PACKETS) : 0;
-  return {defaultCompactChunk(device), defaultWorkGroup(SceneFeatures::ofBits(packets))};
+  return {defaultCompactChunk(device), defaultWorkGroup(SceneFeatures::ofBits(packets)), false,
+          loopBudget(device)};
 }
 
 bool haveBinaries(const ProgramCache& cache, const DeviceInfo& device,

@@ -98,8 +98,9 @@ std::vector<KernelProgram> kernelPrograms(const SceneFeatures& features,
 }
 
 std::string buildOptions(const KernelProgram& program, const CompileTarget& target) {
-  return fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}{}", program.features,
+  return fmt::format("-cl-std=CL1.2 -D SCENE_FEATURES=0x{:x} -D COMPACT_CHUNK={}{}{}", program.features,
                      target.compactChunk,
+                     target.loopBudget > 0 ? fmt::format(" -D LOOP_BUDGET={}", target.loopBudget) : "",
                      target.relaxedArithmetic && program.mayRelax ? " -cl-fast-relaxed-math" : "");
 }
 

@@ -39,6 +39,7 @@ struct CompileTarget {
   /// divisions and roots lose a bit or two. Never the others: the searches would no longer agree with each
   /// other, and the film's compensated sums would be folded into plain ones.
   bool relaxedArithmetic = false;
+  std::uint32_t loopBudget = 0;  ///< see LOOP_BUDGET
 };
 
 /// What the compiler is told besides the program's text.

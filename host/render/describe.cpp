@@ -13,8 +13,10 @@ void describeScene(Stats& stats, const Scene& scene) {
 }
 
 void describeDevice(Stats& stats, const DeviceInfo& d, int threads) {
-  stats.device = {d.platform, d.name,         d.version,
-                  d.driver,   d.computeUnits, threads > 0 ? threads : static_cast<int>(d.computeUnits)};
+  const bool isKept = threads > 0 && keepsToThreads(d, threads);
+  stats.device = {d.platform,        d.name,         d.version,
+                  d.driver,          d.computeUnits, isKept ? threads : static_cast<int>(processorsOf(d)),
+                  d.facts.givesTimes};
 }
 
 void describeDecisions(Stats& stats, const Decisions& decisions) {

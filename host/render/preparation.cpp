@@ -9,6 +9,7 @@
 
 #include "bvh/uninitialized.h"
 #include "cl/device.h"
+#include "cl/device_facts.h"
 #include "report/text.h"
 #include "scene/byte_counts.h"
 #include "scene/camera.h"
@@ -44,8 +45,10 @@ void checkSettings(const Settings& s) {
 Compute openDevice(const Settings& settings, Compute::Memory memory, Compute::Launches launches) {
   // The environment is left alone: the platform has read it, or another thread may.
   prepareCpuThreads(0, settings.workGroup);
-  return Compute(withThreads(selectDevice(listDevices(), settings.device), settings.threads), memory,
-                 launches);
+  Compute compute(withThreads(selectDevice(listDevices(), settings.device), settings.threads), memory,
+                  launches);
+  learnFacts(compute);
+  return compute;
 }
 
 std::unique_ptr<tbb::global_control> limitThreads(int threads) {
@@ -53,12 +56,34 @@ std::unique_ptr<tbb::global_control> limitThreads(int threads) {
   return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
 }
 
+namespace {
+
+/// Throws InputError for what the device's driver would not do to its end.
+void checkLoops(const Scene& scene, const SceneFeatures& features, const DeviceInfo& device,
+                const LoopLimits& limits) {
+  if (device.facts.loopLimit == 0) return;
+  if (features.has(Feature::PACKETS))
+    throw InputError(
+        fmt::format("--lanes: 16 cannot be had on {}, whose driver ends loops after {} iterations",
+                    device.name, device.facts.loopLimit));
+  if (!features.has(Feature::TREE) && scene.triangles.size() > limits.triangles)
+    throw InputError(
+        fmt::format("--search: array takes at most {} triangles on {}, whose driver ends loops after "
+                    "{} iterations, and the scene has {}; take tree",
+                    formatInteger(limits.triangles), device.name, device.facts.loopLimit,
+                    formatInteger(scene.triangles.size())));
+}
+
+}  // namespace
+
 Decisions decide(const Scene& scene, const Settings& settings, const DeviceInfo& device, TexelFacts* texels) {
   Decisions d;
   d.camera = findCamera(scene, settings.camera);
   d.pruned = pruneScene(scene, settings, texels);
   d.features = SceneFeatures::analyse(scene, d.pruned, settings, {device.suitsPackets()});
-  d.lights = lightGroups(scene, d.pruned, d.features);
+  const LoopLimits limits = loopLimits(device);
+  checkLoops(scene, d.features, device, limits);
+  d.lights = lightGroups(scene, d.pruned, d.features, limits.lights);
   d.hasLateLight = hasLateLight(scene, d.pruned, d.lights);
   d.buffers = SceneFeatures::ofBits(d.features.bits());
   d.compactChunk = defaultCompactChunk(device);
@@ -120,9 +145,10 @@ TriTree buildTree(const Scene& scene, const Decisions& decisions) {
   return tree;
 }
 
-std::uint32_t queueCapacity(const Settings& s) {
+std::uint32_t queueCapacity(const Settings& s, const DeviceInfo& device) {
   const std::uint64_t samples = tracedRegion(s).pixels() * static_cast<std::uint64_t>(s.raysPerPixel);
-  const std::uint64_t wanted = std::min<std::uint64_t>(static_cast<std::uint64_t>(s.wavefront), 2 * samples);
+  const std::uint64_t wanted = std::min<std::uint64_t>(
+      {static_cast<std::uint64_t>(s.wavefront), 2 * samples, loopLimits(device).entries / 64 * 64});
   return static_cast<std::uint32_t>((std::max(wanted, std::uint64_t{2} * LONG_RUN) + 63) / 64 * 64);
 }
 
@@ -130,7 +156,7 @@ SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings&
                            const Decisions& decisions, TriTree tree, Scene* consumed) {
   return {uploadScene(compute, scene, decisions.pruned, std::move(tree), decisions.buffers, consumed),
           RayQueues(compute, decisions.features, decisions.buffers, mostWaiting(decisions.lights),
-                    queueCapacity(settings), decisions.compactChunk)};
+                    queueCapacity(settings, compute.device()), decisions.compactChunk)};
 }
 
 void SceneBuffers::report(std::vector<BufferStats>& out) const {

@@ -23,7 +23,8 @@ namespace whittle {
 /// Throws InputError where a setting is out of its range, or two contradict each other.
 void checkSettings(const Settings& settings);
 
-/// The device that the settings ask for. Throws ClError or std::invalid_argument.
+/// The device that the settings ask for, with what is known of it (cl/device_facts.h). Throws ClError or
+/// std::invalid_argument.
 Compute openDevice(const Settings& settings, Compute::Memory memory, Compute::Launches launches);
 
 /// For as long as it is kept: the tree builder and whatever else runs on the host's threads has so many at
@@ -72,8 +73,8 @@ SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings&
                            const Decisions& decisions, TriTree tree, Scene* consumed = nullptr);
 
 /// Rays in flight: never more than the picture has samples (twice, for branching), never fewer than two long
-/// runs.
-std::uint32_t queueCapacity(const Settings& settings);
+/// runs, nor more than the device's loops allow.
+std::uint32_t queueCapacity(const Settings& settings, const DeviceInfo& device);
 
 /// With the sizes that were chosen where the user left them open.
 Settings settingsInEffect(const Settings& settings, const Decisions& decisions, const RayQueues& queues);

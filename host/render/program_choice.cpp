@@ -2,6 +2,7 @@
 #include "render/program_choice.h"
 
 #include "analysis/general_features.h"
+#include "cl/device_facts.h"
 #include "cl/kernel_cache.h"
 #include "programs/general_programs.h"
 #include "scene/input_error.h"
@@ -25,7 +26,8 @@ ProgramChoice choosePrograms(const DeviceInfo& device, KeptPrograms& kept, const
   const auto stages = plannedStages({decisions.features, decisions.lights.size(),
                                      mostHits(decisions.features, settings), decisions.hasLateLight});
   ProgramChoice choice;
-  choice.target = {decisions.compactChunk, decisions.workGroup, settings.relaxedArithmetic};
+  choice.target = {decisions.compactChunk, decisions.workGroup, settings.relaxedArithmetic,
+                   loopBudget(device)};
   choice.own = kernelPrograms(decisions.features, stages, hooks.kernelFolder);
   choice.job = {device.index, decisions.features.bits(), choice.target, hooks.kernelFolder, stages};
   if (hooks.tier == Tier::Specialised) return choice;

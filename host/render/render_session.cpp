@@ -1,9 +1,12 @@
 // A render, phase by phase: each takes what those before it returned, or what an earlier render left.
 #include "render/render_session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <future>
 
+#include "cl/device_facts.h"
 #include "programs/kernel_programs.h"
 #include "render/aovs.h"
 #include "render/describe.h"
@@ -204,7 +207,8 @@ void RenderSession::State::provideScene(Compute& compute, const Scene& from, con
 void RenderSession::State::provideQueues(Compute& compute, const Settings& settings,
                                          const Decisions& decisions, bool isPreview, PhaseLog& log) {
   QueueKey wanted{decisions.features.bits() & kQueueFeatures, decisions.buffers.bits() & kQueueFeatures,
-                  mostWaiting(decisions.lights), queueCapacity(settings), decisions.compactChunk};
+                  mostWaiting(decisions.lights), queueCapacity(settings, compute.device()),
+                  decisions.compactChunk};
   // A preview takes larger ones that are there, and leaves them to the render that follows.
   if (isPreview && queues.value) wanted.capacity = std::max(wanted.capacity, queues.key.capacity);
   work.queues = !queues.serves(wanted);
@@ -226,6 +230,9 @@ RenderSession::State::Prepared RenderSession::State::prepare(const Scene& from, 
   const auto opening = Clock::now();
   OpenDevice& open = openFor(settings, hooks);
   log.end("open the device", opening);
+  if (hooks.note && settings.threads > 0 && !keepsToThreads(open.compute.device(), settings.threads))
+    hooks.note(fmt::format("--threads: {} takes as many as it likes, its driver cannot be told otherwise",
+                           open.compute.device().name));
   const std::size_t readBefore = texels.reads;
   Decisions decisions = log.time("decide what is needed",
                                  [&] { return decide(from, settings, open.compute.device(), &texels); });
@@ -255,7 +262,7 @@ namespace {
 
 /// What a wavefront is set up with; refers to the scene and the features.
 WavefrontSetup setupOf(const Scene& scene, const DeviceScene& onDevice, const Settings& settings,
-                       const Decisions& decisions, const RenderHooks& hooks) {
+                       const Decisions& decisions, const RenderHooks& hooks, const DeviceInfo& device) {
   const Camera& camera = hooks.camera ? *hooks.camera : scene.cameras[decisions.camera];
   return {decisions.features,
           onDevice,
@@ -265,7 +272,9 @@ WavefrontSetup setupOf(const Scene& scene, const DeviceScene& onDevice, const Se
           static_cast<std::uint32_t>(settings.bounces),
           static_cast<std::uint32_t>(mostHits(decisions.features, settings)),
           decisions.compactChunk,
-          static_cast<std::uint32_t>(tracedRegion(settings).pixels())};
+          static_cast<std::uint32_t>(tracedRegion(settings).pixels()),
+          loopLimits(device).samples,
+          loopBudget(device) > 0};
 }
 
 StageRunner runnerOf(Compute& compute, const std::vector<cl::Program>& programs, const Decisions& decisions,
@@ -290,7 +299,8 @@ RenderResult RenderSession::render(const Scene& scene, const Settings& settings,
   const auto rendering = Clock::now();
   StageRunner stages = runnerOf(compute, prepared.start.programs, decisions, *kept.queues.value);
   stages.record(hooks.trace);
-  const WavefrontSetup setup = setupOf(scene, *kept.scene.value, settings, decisions, hooks);
+  const WavefrontSetup setup =
+      setupOf(scene, *kept.scene.value, settings, decisions, hooks, compute.device());
   Wavefront wavefront(compute, stages, *kept.queues.value, setup, picture.film, picture.aovs);
   std::optional<PixelRecorder> recorder;
   if (settings.bounceAov || settings.costAov)
@@ -351,7 +361,8 @@ std::vector<RayTree> RenderSession::explain(const Scene& scene, const Settings& 
   const Decisions& decisions = prepared.decisions;
   Compute& compute = prepared.device.compute;
   StageRunner stages = runnerOf(compute, prepared.start.programs, decisions, *kept.queues.value);
-  const WavefrontSetup setup = setupOf(scene, *kept.scene.value, settings, decisions, hooks);
+  const WavefrontSetup setup =
+      setupOf(scene, *kept.scene.value, settings, decisions, hooks, compute.device());
   const Buffer& film = kept.pictures[hooks.isPreview].value->film;
   const Buffer none;
   Wavefront wavefront(compute, stages, *kept.queues.value, setup, film, none);

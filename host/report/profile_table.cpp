@@ -123,6 +123,9 @@ std::string profileTable(const Stats& stats) {
   out +=
       "M/s: million items a second. GB/s: queues and film read and written;\ntree, triangles and textures "
       "come on top.\n";
+  if (!stats.device.givesTimes)
+    out +=
+        "This driver gives no times: the host's clock around each launch, which waits for the one before.\n";
   return out + "\n" + balance(stats, all) + "\n" + timeline(stats);
 }
 

@@ -83,12 +83,13 @@ nlohmann::ordered_json memoryToJson(const std::vector<BufferStats>& buffers) {
   return memory;
 }
 
-nlohmann::ordered_json stagesToJson(const std::vector<StageStats>& stages) {
+/// What the host's clock has of a stage is no number of the device.
+nlohmann::ordered_json stagesToJson(const std::vector<StageStats>& stages, bool givesTimes) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const auto& stage : stages)
     list.push_back({{"name", stage.facts.name},
                     {"launches", stage.launches},
-                    {"seconds", stage.seconds},
+                    {"seconds", givesTimes ? nlohmann::ordered_json(stage.seconds) : nullptr},
                     {"items", stage.items},
                     {"bytes", stage.bytes},
                     {"perWorkItem", stage.perWorkItem}});
@@ -140,7 +141,8 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
   json["settings"]["searchUsed"] = s.searchUsed;
   json["device"] = {{"platform", s.device.platform},         {"name", s.device.name},
                     {"version", s.device.version},           {"driver", s.device.driver},
-                    {"computeUnits", s.device.computeUnits}, {"threads", s.device.threads}};
+                    {"computeUnits", s.device.computeUnits}, {"threads", s.device.threads},
+                    {"givesTimes", s.device.givesTimes}};
   json["features"]["used"] = s.featuresUsed;
   json["features"]["kept"] = s.featuresForced;
   json["features"]["leftOut"] = nlohmann::ordered_json::array();
@@ -156,12 +158,13 @@ nlohmann::ordered_json statsToJson(const Stats& s) {
                   {"total", s.time.total}};
   json["phases"] = phasesToJson(s.phases);
   json["programs"] = programsToJson(s.programs);
-  json["stages"] = stagesToJson(s.stages);
+  json["stages"] = stagesToJson(s.stages, s.device.givesTimes);
   for (std::size_t i = 0; i < s.stages.size(); ++i)
     json["stages"][i].update(stageFactsToJson(s.stages[i].facts));
   json["bounces"] = nlohmann::ordered_json::array();
   for (const auto& b : s.bounces)
-    json["bounces"].push_back({{"bounce", b.bounce}, {"stages", stagesToJson(b.stages)}});
+    json["bounces"].push_back(
+        {{"bounce", b.bounce}, {"stages", stagesToJson(b.stages, s.device.givesTimes)}});
   json["memory"] = memoryToJson(s.buffers);
   json["error"] = nlohmann::ordered_json::array();
   for (const auto& e : s.error)

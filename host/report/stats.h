@@ -18,7 +18,8 @@ struct StageStats {
   StageFacts facts;
   std::uint32_t perWorkItem = 1;  ///< items that a work item takes
   std::uint64_t launches = 0;
-  double seconds = 0.0;     ///< on the device, from its event counters
+  double seconds =
+      0.0;  ///< on the device, from its event counters, or by the host (Stats::device.givesTimes)
   std::uint64_t items = 0;  ///< not padded work items
   std::uint64_t bytes = 0;  ///< of queues and film, as wavefront/stages.h counts them
 
@@ -83,6 +84,7 @@ struct Stats {
     std::string platform, name, version, driver;
     unsigned computeUnits = 0;
     int threads = 0;
+    bool givesTimes = true;  ///< else its driver's are none, and those of stages are the host's
   } device;
   std::vector<std::string> featuresUsed;
   std::vector<std::string> featuresForced;  ///< those of them that the scene does not need

@@ -95,7 +95,8 @@ std::string Trace::toText() const {
   nameRow(out, 0, "process_name", "whittle");
   nameRow(out, static_cast<int>(Track::Host), "thread_name", "host");
   nameRow(out, static_cast<int>(Track::Compiler), "thread_name", "kernel compiler");
-  nameRow(out, static_cast<int>(Track::Device), "thread_name", "device");
+  nameRow(out, static_cast<int>(Track::Device), "thread_name",
+          areLaunchesHosts_ ? "device, by the host's clock" : "device");
   for (std::size_t i = 0; i < helpers_.size(); ++i)
     nameRow(out, static_cast<int>(Track::Helpers) + static_cast<int>(i), "thread_name",
             fmt::format("host, thread {}", i + 2).c_str());

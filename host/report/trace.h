@@ -38,6 +38,8 @@ class Trace {
     hostMinusDevice_ = std::min(hostMinusDevice_, record.enqueued - queued);
     launches_.push_back(record);
   }
+  /// Launches were timed by the host, each waited for: their row says so.
+  void launchesAreHosts() { areLaunchesHosts_ = true; }
   /// From `start` to now, on a row of its own kind. `name` is one that JSON need not escape. May be called
   /// from several threads.
   void phase(const std::string& name, Clock::time_point start, Track track = Track::Host);
@@ -57,6 +59,7 @@ class Trace {
   double firstSecond() const;
 
   std::vector<Launch> launches_;
+  bool areLaunchesHosts_ = false;
   double hostMinusDevice_ = std::numeric_limits<double>::infinity();  ///< seconds
   std::vector<Phase> phases_;
   std::vector<std::thread::id> helpers_;  ///< in the order of their rows

@@ -4,11 +4,34 @@
 #include <algorithm>
 #include <map>
 
+#include "cl/device_facts.h"
+
 namespace whittle {
+
+namespace {
+
+/// Iterations at most of what lies within the loop over samples (film.cl) and over lights (shade.cl), if no
+/// compiler unrolls any of it: five sums thrice; eight candidates of a surface light, each found in a table
+/// of at most 2^32 rows, and some more.
+constexpr std::uint32_t kLoopsOfASample = 16, kLoopsOfALight = 512;
+
+}  // namespace
 
 int defaultWorkGroup(const SceneFeatures& features) { return features.has(Feature::PACKETS) ? 8 : 64; }
 
-std::uint32_t defaultCompactChunk(const DeviceInfo& device) { return device.kind == "cpu" ? 1024 : 32; }
+std::uint32_t defaultCompactChunk(const DeviceInfo& device) {
+  if (device.kind != "cpu") return 32;
+  return device.facts.loopLimit > 0 ? LoopLimits::kCompactChunk : 1024;
+}
+
+LoopLimits loopLimits(const DeviceInfo& device) {
+  const std::uint32_t budget = loopBudget(device);
+  if (budget == 0) return {};
+  return {.triangles = budget - 1,
+          .entries = device.facts.loopLimit / (SUM_ENDED + ENDED_KINDS) * LoopLimits::kCompactChunk,
+          .samples = std::max(1U, budget / kLoopsOfASample),
+          .lights = std::max(1U, budget / kLoopsOfALight)};
+}
 
 StageRunner::StageRunner(Compute& compute, const std::vector<cl::Program>& programs, int workGroup,
                          const LaunchWidths& widths, const EntryBytes& entryBytes)
@@ -47,24 +70,41 @@ std::size_t StageRunner::stageIndex(const Stage& stage) {
 void StageRunner::launch(const Stage& stage, cl::Kernel& kernel, std::uint64_t workItems, Work work) {
   const std::size_t global = (workItems + workGroup_ - 1) / workGroup_ * workGroup_;
   Launch launch{stageIndex(stage), {}, work, batch_};
-  const bool timed = compute_.timesLaunches();
+  const bool timed = compute_.timesLaunches(), byHost = timed && !compute_.device().facts.givesTimes;
+  if (byHost) finish();
+  launch.start = steadySeconds(Trace::Clock::now());
   clTry(std::string("launching kernel '") + stage.facts.name + "' on " + compute_.device().name, [&] {
     compute_.queue().enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(global), cl::NDRange(workGroup_),
-                                          nullptr, timed ? &launch.event : nullptr);
+                                          nullptr, timed && !byHost ? &launch.event : nullptr);
   });
   if (trace_) launch.enqueued = steadySeconds(Trace::Clock::now());
   StageStats& stats = stages_[launch.stage].stats;
   stats.launches += 1;
   stats.items += work.items;
   stats.bytes += work.bytes;
-  if (timed) launches_.push_back(std::move(launch));
+  if (byHost)
+    timeByHost(launch);
+  else if (timed)
+    launches_.push_back(std::move(launch));
+}
+
+void StageRunner::finish() {
+  clTry("waiting for kernels", [&] { compute_.queue().finish(); });
+}
+
+/// A launch that nothing is under way beside.
+void StageRunner::timeByHost(Launch& launch) {
+  finish();
+  const double end = steadySeconds(Trace::Clock::now());
+  stages_[launch.stage].stats.seconds += end - launch.start;
+  if (!trace_) return;
+  trace_->launchesAreHosts();
+  launch.enqueued = launch.start;  // one clock is behind both
+  record(launch, launch.start, launch.start, end);
 }
 
 void StageRunner::collect() {
-  if (!compute_.timesLaunches()) {
-    clTry("waiting for kernels", [&] { compute_.queue().finish(); });
-    return;
-  }
+  if (!compute_.timesLaunches()) return finish();
   clTry("reading kernel times", [&] {
     for (auto& launch : launches_) {
       launch.event.wait();
@@ -80,10 +120,14 @@ void StageRunner::collect() {
 void StageRunner::recordLaunch(const Launch& launch, std::uint64_t start, std::uint64_t end) {
   const auto queued = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>();
   const auto seconds = [](std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-9; };
+  record(launch, seconds(queued), seconds(start), seconds(end));
+}
+
+void StageRunner::record(const Launch& launch, double queued, double start, double end) {
   const StageOfBounce& of = stages_[launch.stage];
   trace_->launch({of.stats.facts.name, of.stats.facts.queue, launch.batch, of.bounce, launch.work.items,
-                  launch.work.bytes, launch.enqueued, seconds(start), seconds(end)},
-                 seconds(queued));
+                  launch.work.bytes, launch.enqueued, start, end},
+                 queued);
 }
 
 std::vector<StageStats> StageRunner::stats() {

@@ -19,6 +19,20 @@ namespace whittle {
 /// work at the end of every launch.
 int defaultWorkGroup(const SceneFeatures& features);
 
+/// What a device that ends loops (DeviceFacts::loopLimit) may be given at once, so that no loop of a stage
+/// comes near that; without bounds on one that does not.
+struct LoopLimits {
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+  /// 1 024 entries with two impulses each, plane by plane, are too many.
+  static constexpr std::uint32_t kCompactChunk = 128;
+
+  std::uint32_t triangles = kNone;  ///< without a tree
+  std::uint32_t entries = kNone;    ///< of a queue: a work item sums its chunks
+  std::uint32_t samples = kNone;    ///< of a pixel in a batch
+  std::uint32_t lights = kNone;     ///< of a launch of shade
+};
+LoopLimits loopLimits(const DeviceInfo& device);
+
 /// Chunks of the compaction: long ones for few CPU threads, short ones for the many of a GPU.
 std::uint32_t defaultCompactChunk(const DeviceInfo& device);
 
@@ -58,7 +72,8 @@ class StageRunner {
   /// Work on the host from now to the end of the scope, for the trace.
   [[nodiscard]] HostWork hostWork(const char* name) const { return {trace_, name}; }
 
-  /// Waits for all launches and adds their times to the statistics, where the queue keeps them.
+  /// Waits for all launches and adds their times to the statistics, where the queue keeps them. (A driver
+  /// whose times are none has each launch waited for, and timed by the host's clock.)
   void collect();
   /// Over all bounces, in the order of the first launches.
   std::vector<StageStats> stats();
@@ -76,7 +91,7 @@ class StageRunner {
     cl::Event event;
     Work work;
     std::uint32_t batch = 0;
-    double enqueued = 0.0;  ///< seconds of the steady clock, right after the launch; only when recording
+    double start = 0.0, enqueued = 0.0;  ///< seconds of the steady clock, before and right after the launch
   };
   struct StageOfBounce {
     std::uint32_t bounce = 0;
@@ -87,7 +102,10 @@ class StageRunner {
   /// Of the present bounce.
   std::size_t stageIndex(const Stage& stage);
   void launch(const Stage& stage, cl::Kernel& kernel, std::uint64_t workItems, Work work);
+  void finish();
+  void timeByHost(Launch& launch);
   void recordLaunch(const Launch& launch, std::uint64_t start, std::uint64_t end);
+  void record(const Launch& launch, double queued, double start, double end);
 
   Compute& compute_;
   std::size_t workGroup_;

@@ -120,7 +120,8 @@ struct Intersect {
   Global<float> hits;
   Count hitPlanes = HIT_PLANES;
   Count continued = 0;  ///< 1: rays may have gone straight on
-  WHITTLE_ARGUMENTS(scene, first, count, capacity, rays, hits, hitPlanes, continued)
+  Global<Count> counters;
+  WHITTLE_ARGUMENTS(scene, first, count, capacity, rays, hits, hitPlanes, continued, counters)
 
   Count items() const { return count; }
   Bytes bytes(const EntryBytes& e) const { return count * (kRay + e.hit); }
@@ -216,7 +217,8 @@ struct Occlude {
   Global<const Count> shadowQueue;
   Global<const float> shadows;
   Global<float> entryRadiance;
-  WHITTLE_ARGUMENTS(scene, count, capacity, set, shadowQueue, shadows, entryRadiance)
+  Global<Count> counters;
+  WHITTLE_ARGUMENTS(scene, count, capacity, set, shadowQueue, shadows, entryRadiance, counters)
 
   Count items() const { return count; }
   /// Reads index, ray, length and contribution; adds to the radiance, as though every light were reached.

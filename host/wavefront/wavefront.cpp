@@ -1,6 +1,8 @@
 // The render loop. Each method that launches is named after its stage.
 #include "wavefront/wavefront.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -22,7 +24,7 @@ std::uint32_t Wavefront::trace(const TracePass& pass, const KeepGoing& keepGoing
   const std::uint32_t room = queues_.segmentLimit();
   assert(room >= FILM_BLOCK);
   // Whole blocks, so that a pass can end between batches.
-  const std::uint32_t samplesAtOnce = std::min(pass.samples, room / FILM_BLOCK);
+  const std::uint32_t samplesAtOnce = std::min({pass.samples, room / FILM_BLOCK, setup_.mostSamples});
   const std::uint32_t pixelsAtOnce = room / samplesAtOnce / FILM_BLOCK * FILM_BLOCK;
   double done = 0.0;
   for (std::uint32_t pixel = 0; pixel < pass.pixels; pixel += pixelsAtOnce) {
@@ -58,6 +60,7 @@ bool Wavefront::traceBatch(const TracePass& pass, const device::Batch& batch, Sh
     tally_ = before;
   const auto work = stages_.hostWork("wait and read kernel times");
   stages_.collect();
+  checkWalks();
   return whole;
 }
 
@@ -129,7 +132,8 @@ void Wavefront::intersect(const Buffer& queue, Segment segment, std::uint32_t bo
                                 .rays = queue,
                                 .hits = queues_.hits,
                                 .hitPlanes = queues_.hitPlanes(),
-                                .continued = bounce > 1 || setup_.features.has(Feature::NEAR_PLANE)});
+                                .continued = bounce > 1 || setup_.features.has(Feature::NEAR_PLANE),
+                                .counters = counters_});
 }
 
 void Wavefront::shade(const Buffer& queue, Segment segment, std::uint32_t bounce) {
@@ -253,7 +257,8 @@ void Wavefront::occlude(std::uint32_t count, std::uint32_t set) {
                               .set = set,
                               .shadowQueue = queues_.shadowQueue,
                               .shadows = queues_.shadows,
-                              .entryRadiance = *radiance_});
+                              .entryRadiance = *radiance_,
+                              .counters = counters_});
 }
 
 void Wavefront::addLight(Segment segment, std::uint32_t set) {
@@ -325,6 +330,17 @@ bool Wavefront::hasLongRuns(const Buffer& queue, std::uint32_t count, std::uint3
   std::uint32_t found = 0;
   compute_.read(counters_, offset, sizeof(found), &found);
   return found != 0;
+}
+
+void Wavefront::checkWalks() {
+  if (!setup_.hasLoopBudget) return;
+  std::uint32_t spent = 0;
+  compute_.read(counters_, COUNTER_SPENT_WALK * sizeof(std::uint32_t), sizeof(spent), &spent);
+  if (spent != 0)
+    throw ClError(
+        fmt::format("a ray meets so many boxes and triangles that {} would end its search: its driver ends "
+                    "loops after {} iterations; take another --device",
+                    compute_.device().name, compute_.device().facts.loopLimit));
 }
 
 std::uint32_t Wavefront::nonFinite() {

@@ -36,6 +36,9 @@ struct WavefrontSetup {
   std::uint32_t rounds;  ///< of the loop, see mostHits
   std::uint32_t compactChunk;
   std::uint32_t pixels;  ///< of the film
+  /// Of a pixel in a batch, and whether walks have a budget (loopLimits, LOOP_BUDGET).
+  std::uint32_t mostSamples = LoopLimits::kNone;
+  bool hasLoopBudget = false;
 };
 
 /// Samples [firstSample, firstSample + samples) of `pixels` pixels. Without `blocks` pixel i is i of the
@@ -113,6 +116,8 @@ class Wavefront {
   void accumulate(const Buffer& queue, Segment segment);
   void film(const Buffer& blocks);
 
+  /// Throws ClError where a walk of the batch was longer than the device lets loops be.
+  void checkWalks();
   std::uint32_t chunksOf(Segment segment) const;
   std::vector<Segment> cut(const Buffer& queue, std::uint32_t count, std::uint32_t bounce);
   bool mayHaveLongRuns(std::uint32_t count, std::uint32_t bounce) const;

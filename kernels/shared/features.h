@@ -85,6 +85,10 @@
 #define COMPACT_CHUNK 1024  // entries that one work item of the compaction walks: many on a CPU, few on a GPU
 #endif
 
+#ifndef LOOP_BUDGET
+#define LOOP_BUDGET 0  // iterations of a walk, where a driver ends loops (host/cl/device_facts.h); 0: it does not
+#endif
+
 #define TEXTURE_PROBES 4   // lookups side by side along a footprint, at most
 #define LONG_RUN 256       // a sample with more entries than this in one queue is cut into slices of this length
 #define PACKET_RAYS 16     // rays of a packet, with PACKETS; one for each work item without

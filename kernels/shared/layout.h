@@ -328,7 +328,8 @@ WHITTLE_STRUCT(Batch) {
 // Counters on the device.
 #define COUNTER_NONFINITE 0
 #define COUNTER_LONG_RUN 1
-#define COUNTERS 2
+#define COUNTER_SPENT_WALK 2  // 1: a search was longer than LOOP_BUDGET
+#define COUNTERS 3
 
 #ifndef __OPENCL_VERSION__
 }  // namespace whittle::device

@@ -40,8 +40,8 @@ TEST_P(Help, FitsATerminalAndSpeaksThisProgramsWords) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cli, Help,
-                         testing::Values("", "render", "view", "reference", "info", "devices", "cache",
-                                         "compare", "bench"),
+                         testing::Values("", "render", "view", "reference", "info", "devices", "check",
+                                         "cache", "compare", "bench"),
                          [](const auto& of) { return std::string(*of.param ? of.param : "whittle"); });
 
 /// --rays-per-pixel for raysPerPixel.

@@ -143,19 +143,38 @@ INLINE Real3 transmittanceFromStops(const uint* stops) {
 #endif
 }
 
+// A driver that ends loops says nothing of it. Where there is one, a walk takes its steps from a budget that is spent
+// before the driver's, and the host is told.
+INLINE int isSpent(uint* left, uint steps) {
+#if LOOP_BUDGET
+  *left = *left > steps ? *left - steps : 0;
+  return *left == 0;
+#else
+  return 0;
+#endif
+}
+
+INLINE void tellSpent(uint left, __global uint* counters) {
+#if LOOP_BUDGET
+  if (left == 0 && counters) counters[COUNTER_SPENT_WALK] = 1;
+#endif
+}
+
 #if HAS(PACKETS)
 // Packets search, and walk their own rays one by one.
 #elif HAS(TREE)
-Hit nearestSingle(const SceneView* scene, const Ray* r) {
+Hit nearestSingle(const SceneView* scene, const Ray* r, uint* left) {
   Hit best = noHit(MAXFLOAT);
   if (!isFiniteRay(r)) return best;
   int stack[MAX_TREE_DEPTH + 4];
   int depth = 0;
   int current = 0;
   for (;;) {
+    if (isSpent(left, 1)) return best;
     if (current < 0) {
       const uint packed = (uint)~current;
       const uint first = packed >> 4, count = (packed & 15u) + 1;
+      if (isSpent(left, count)) return best;
       for (uint i = first; i < first + count; ++i) testNearest(scene, r, i, &best);
     } else {
       __global const Node* node = scene->nodes + current;
@@ -174,16 +193,18 @@ Hit nearestSingle(const SceneView* scene, const Ray* r) {
   }
 }
 
-INLINE Real3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
+INLINE Real3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax, uint* left) {
   uint stops[3] = {0, 0, 0};
   if (!isFiniteRay(r)) return real3(1.0f, 1.0f, 1.0f);
   int stack[MAX_TREE_DEPTH + 4];
   int depth = 0;
   int current = 0;
   for (;;) {
+    if (isSpent(left, 1)) return real3(0.0f, 0.0f, 0.0f);
     if (current < 0) {
       const uint packed = (uint)~current;
       const uint first = packed >> 4, count = (packed & 15u) + 1;
+      if (isSpent(left, count)) return real3(0.0f, 0.0f, 0.0f);
       for (uint i = first; i < first + count; ++i)
         if (testOcclusion(scene, r, i, tMax, stops)) return real3(0.0f, 0.0f, 0.0f);
     } else {
@@ -202,15 +223,15 @@ INLINE Real3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMa
   }
 }
 #else
-Hit nearestSingle(const SceneView* scene, const Ray* r) {
+Hit nearestSingle(const SceneView* scene, const Ray* r, uint* left) {
   Hit best = noHit(MAXFLOAT);
-  for (uint i = 0; i < scene->triangleCount; ++i) testNearest(scene, r, i, &best);
+  for (uint i = 0; i < scene->triangleCount && !isSpent(left, 1); ++i) testNearest(scene, r, i, &best);
   return best;
 }
 
-INLINE Real3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax) {
+INLINE Real3 transmittanceSingle(const SceneView* scene, const Ray* r, float tMax, uint* left) {
   uint stops[3] = {0, 0, 0};
-  for (uint i = 0; i < scene->triangleCount; ++i)
+  for (uint i = 0; i < scene->triangleCount && !isSpent(left, 1); ++i)
     if (testOcclusion(scene, r, i, tMax, stops)) return real3(0.0f, 0.0f, 0.0f);
   return transmittanceFromStops(stops);
 }

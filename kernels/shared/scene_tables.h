@@ -19,25 +19,25 @@
 // index; the feature of reading it; how its colours are stored; what is multiplied by it, of a material m
 // (where that is 0 it is not read; 1: it always is); the features of which one must be there for it to show,
 // UNLIT among them where an unlit surface shows it.
-#define WHITTLE_TEXTURE_SLOTS(X) WHITTLE_OWN_TEXTURE_SLOTS(X) WHITTLE_LAYER_TEXTURE_SLOTS(X)
+#define WHITTLE_TEXTURE_SLOTS(X) WHITTLE_OWN_TEXTURE_SLOTS(X) WHITTLE_PART_TEXTURE_SLOTS(X)
 // Those that have a feature of their own.
 #define WHITTLE_OWN_TEXTURE_SLOTS(X)                                                                  \
   X(baseColorTexture, BASE_COLOR_TEXTURE, SRGB, 1.0F, (LIGHTS, IMPULSES, UNLIT, ALPHA_MASK, AMBIENT)) \
   X(metallicRoughnessTexture, METALLIC_ROUGHNESS_TEXTURE, LINEAR, 1.0F, (LIGHTS, IMPULSES, AMBIENT))  \
-  X(normalTexture, NORMAL_TEXTURE, LINEAR, 1.0F, (LIGHTS, IMPULSES))                                  \
-  X(emissionTexture, EMISSION_TEXTURE, SRGB, m.emission, (EMISSION))                                  \
-  X(specularTexture, SPECULAR_TEXTURE, LINEAR, m.specular, (SPECULAR_EXTENSION))                      \
-  X(specularColorTexture, SPECULAR_COLOR_TEXTURE, SRGB, m.specularColor, (SPECULAR_EXTENSION))        \
-  X(transmissionTexture, TRANSMISSION_TEXTURE, LINEAR, m.transmission, (TRANSMISSION))
+  X(normalTexture, NORMAL_TEXTURE, LINEAR, 1.0F, (LIGHTS, IMPULSES))
 // Those that are read with the feature of what they belong to: a lookup asks whether anything is there.
-#define WHITTLE_LAYER_TEXTURE_SLOTS(X)                                              \
-  X(clearcoatTexture, CLEARCOAT, LINEAR, m.clearcoat, (CLEARCOAT))                  \
-  X(clearcoatRoughnessTexture, CLEARCOAT, LINEAR, m.clearcoat, (CLEARCOAT))         \
-  X(clearcoatNormalTexture, CLEARCOAT, LINEAR, m.clearcoat, (CLEARCOAT))            \
-  X(sheenColorTexture, SHEEN, SRGB, m.sheenColor, (SHEEN))                          \
-  X(sheenRoughnessTexture, SHEEN, LINEAR, m.sheenColor, (SHEEN))                    \
-  X(iridescenceTexture, IRIDESCENCE, LINEAR, m.iridescence, (IRIDESCENCE))          \
-  X(iridescenceThicknessTexture, IRIDESCENCE, LINEAR, m.iridescence, (IRIDESCENCE)) \
+#define WHITTLE_PART_TEXTURE_SLOTS(X)                                                      \
+  X(emissionTexture, EMISSION, SRGB, m.emission, (EMISSION))                               \
+  X(specularTexture, SPECULAR_EXTENSION, LINEAR, m.specular, (SPECULAR_EXTENSION))         \
+  X(specularColorTexture, SPECULAR_EXTENSION, SRGB, m.specularColor, (SPECULAR_EXTENSION)) \
+  X(transmissionTexture, TRANSMISSION, LINEAR, m.transmission, (TRANSMISSION))             \
+  X(clearcoatTexture, CLEARCOAT, LINEAR, m.clearcoat, (CLEARCOAT))                         \
+  X(clearcoatRoughnessTexture, CLEARCOAT, LINEAR, m.clearcoat, (CLEARCOAT))                \
+  X(clearcoatNormalTexture, CLEARCOAT, LINEAR, m.clearcoat, (CLEARCOAT))                   \
+  X(sheenColorTexture, SHEEN, SRGB, m.sheenColor, (SHEEN))                                 \
+  X(sheenRoughnessTexture, SHEEN, LINEAR, m.sheenColor, (SHEEN))                           \
+  X(iridescenceTexture, IRIDESCENCE, LINEAR, m.iridescence, (IRIDESCENCE))                 \
+  X(iridescenceThicknessTexture, IRIDESCENCE, LINEAR, m.iridescence, (IRIDESCENCE))        \
   X(anisotropyTexture, ANISOTROPY, LINEAR, m.anisotropy, (ANISOTROPY))
 
 // The numbers of a material, of the same name in Material and DeviceMaterial, in the order of the latter:

@@ -199,11 +199,9 @@ INLINE void specularReflectance(const SceneView* scene, const TrianglePoint* at,
 #if HAS(SPECULAR_EXTENSION)
   Real strength = MATERIAL(at, specular);
   Real3 tint = MATERIAL3(at, specularColor);
-#if HAS(TEXTURES) && HAS(SPECULAR_TEXTURE)
+#if HAS(TEXTURES)
   const Rgba specular = TEXTURE_AT(scene, at, specularTexture);
   strength *= specular.c[3];
-#endif
-#if HAS(TEXTURES) && HAS(SPECULAR_COLOR_TEXTURE)
   const Rgba specularColor = TEXTURE_AT(scene, at, specularColorTexture);
   tint = mul3(tint, real3(specularColor.c[0], specularColor.c[1], specularColor.c[2]));
 #endif
@@ -237,7 +235,7 @@ INLINE void materialAt(const SceneView* scene, const TrianglePoint* at, Surfel* 
   s->emission = same3((float3)(0.0f));
 #if HAS(EMISSION)
   Real3 emission = MATERIAL3(at, emission);
-#if HAS(TEXTURES) && HAS(EMISSION_TEXTURE)
+#if HAS(TEXTURES)
   const Rgba glow = TEXTURE_AT(scene, at, emissionTexture);
   emission = mul3(emission, real3(glow.c[0], glow.c[1], glow.c[2]));
 #endif

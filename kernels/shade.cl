@@ -9,6 +9,7 @@
 #include "lib/surface/absorption.cl"
 #include "lib/surface/background.cl"
 #include "lib/surface/bsdf.cl"
+#include "lib/surface/choice.cl"
 #include "lib/surface/shadow_ray.cl"
 #include "lib/entry_flags.cl"
 #include "lib/impulses.cl"
@@ -40,6 +41,16 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
   lit = lit & ((s->flags & MATERIAL_UNLIT) == 0);
 #endif
   __global const DeviceLight* light = scene->lights + lightIndex;
+  const Surfel* side = s;  // that the light comes to
+#if HAS(DIFFUSE_TRANSMISSION)
+  Surfel other;
+  if (light->behind) {
+    lit = lit & (s->diffuseTransmission > 0.0f);
+    if (!some(lit)) return (Natural)(0);
+    other = turnedOver(s);
+    side = &other;
+  }
+#endif
   Illumination arriving = illuminationAt(light, s->position);
 #if HAS(LIGHT_SIZE) || HAS(SURFACE_LIGHTS) || HAS(SKY_LIGHTS)
   const uint dimension = LIGHT_DIMENSION + SQUARE_DIMENSIONS * (bounce + ROUNDS * light->index);
@@ -50,24 +61,29 @@ INLINE Natural directLight(const SceneView* scene, const RenderConstants* consta
 #if HAS(SURFACE_LIGHTS)
   if (light->kind == LIGHT_SURFACE) {
     const Square choice = sampleSquares(constants, names, dimension + CHOICE_DIMENSION);
-    arriving = emitterIllumination(scene, constants, s, light->emitters, choice.u, square);
+    arriving = emitterIllumination(scene, constants, side, light->emitters, choice.u, square);
   }
 #endif
 #if HAS(SKY_LIGHTS)
-  if (light->kind == LIGHT_SKY) arriving = skyIllumination(scene, constants, s, square);
+  if (light->kind == LIGHT_SKY) arriving = skyIllumination(scene, constants, side, square);
 #endif
 #endif
-  const Real cosine = dot3(s->n, arriving.w_i);
-  lit = lit & (cosine > 0.0f) & isLitSide(s, arriving.w_i) & notDark(arriving.biradiance);
+  const Real cosine = dot3(side->n, arriving.w_i);
+  lit = lit & (cosine > 0.0f) & isLitSide(side, arriving.w_i) & notDark(arriving.biradiance);
   if (!some(lit)) return (Natural)(0);
+#if HAS(DIFFUSE_TRANSMISSION)
+  const Real3 f = light->behind ? transmittedScattering(constants, s, w_o, arriving.w_i)
+                                : finiteScattering(constants, s, w_o, arriving.w_i, light->kind);
+#else
   const Real3 f = finiteScattering(constants, s, w_o, arriving.w_i, light->kind);
+#endif
   const Real3 contribution = scale3(cosine, mul3(scale3(s->alpha, f), arriving.biradiance));
   lit = lit & notDark(contribution);
   const Real3 carried = mul3(contribution, attenuation);
 #if HAS(SHADOWS)
   if (waits) {
     if (light->castsShadows) {
-      const ShadowRay ray = shadowRayAlong(constants, s, arriving.w_i, arriving.distance);
+      const ShadowRay ray = shadowRayAlong(constants, side, arriving.w_i, arriving.distance);
       storeReal3(shadows, capacity, SHADOW_O, i, ray.o);
       storeReal3(shadows, capacity, SHADOW_D, i, ray.d);
       STORE(ray.length, shadows + (size_t)SHADOW_LENGTH * capacity + i);
@@ -124,17 +140,34 @@ INLINE Mask isEnded(const Arrivals* a, const Impulse* impulse, Real share, Mask 
 }
 
 #if HAS(TEXTURE_LEVELS)
-/// The cone of an impulse, the first of its planes at `cones`: what goes straight on keeps its ray's.
-INLINE void storeCone(const RenderConstants* constants, const Arrivals* a, const Surfel* s, const Impulse* impulse,
-                      __global float* cones, uint capacity) {
-  Cone cone = bentCone(footprintOf(constants, a).width, a->cone.spread, s->bend, -dot3(s->n, a->d), s->n, impulse->w_i,
-                       interfaceEta(s));
+/// The cone of an impulse along w_i, the first of its planes at `cones`: what goes straight on keeps its ray's.
+INLINE void storeCone(const RenderConstants* constants, const Arrivals* a, const Surfel* s, Real3 w_i, Real eta,
+                      Mask straight, __global float* cones, uint capacity) {
+  Cone cone = bentCone(footprintOf(constants, a).width, a->cone.spread, s->bend, -dot3(s->n, a->d), s->n, w_i, eta);
 #if HAS(STRAIGHT)
-  cone.width = impulse->straight ? a->cone.width : cone.width;
-  cone.spread = impulse->straight ? a->cone.spread : cone.spread;
+  cone.width = straight ? a->cone.width : cone.width;
+  cone.spread = straight ? a->cone.spread : cone.spread;
 #endif
   STORE(cone.width, cones + (size_t)CONE_WIDTH * capacity);
   STORE(cone.spread, cones + (size_t)CONE_SPREAD * capacity);
+}
+#endif
+
+#if HAS(DISPERSION) && HAS(BOTH_BRANCHES)
+/// Stores the ways of green and blue behind both sets of planes, and returns the flags of the impulse that splits.
+INLINE Natural storeSplit(const RenderConstants* constants, const Arrivals* a, const Surfel* s, const Impulse* impulse,
+                          Mask sent, Natural flags, uint i, uint capacity, __global float* impulses) {
+  const Mask splits = sent & impulse->splits;
+  if (!some(splits)) return flags;
+  for (uint c = 0; c < 2; ++c) {
+    const uint plane = SPLIT_BASE + c * SPLIT_STRIDE;
+    storeReal3(impulses, capacity, plane + SPLIT_D, i, impulse->ways[c]);
+#if HAS(TEXTURE_LEVELS)
+    storeCone(constants, a, s, impulse->ways[c], interfaceEta(s, channelIndex(s->ior, s->halfSpread, c + 1)),
+              splits & 0, impulses + (size_t)(plane + SPLIT_PLANES) * capacity + i, capacity);
+#endif
+  }
+  return splits ? (Natural)(ENTRY_SPLIT1) : flags;
 }
 #endif
 
@@ -171,7 +204,16 @@ INLINE Natural storeImpulse(const RenderConstants* constants, const Arrivals* a,
   STORE(carried.y, impulses + (size_t)(base + IMPULSE_THROUGHPUT + 1) * capacity + i);
   STORE(carried.z, impulses + (size_t)(base + IMPULSE_THROUGHPUT + 2) * capacity + i);
 #if HAS(TEXTURE_LEVELS)
-  storeCone(constants, a, s, impulse, impulses + (size_t)(base + IMPULSE_PLANES) * capacity + i, capacity);
+#if HAS(DISPERSION)
+  const Real eta = impulse->eta;
+#else
+  const Real eta = interfaceEta(s, s->ior);
+#endif
+  storeCone(constants, a, s, impulse->w_i, eta, impulse->straight,
+            impulses + (size_t)(base + IMPULSE_PLANES) * capacity + i, capacity);
+#endif
+#if HAS(DISPERSION) && HAS(BOTH_BRANCHES)
+  if (k == 1) flags = storeSplit(constants, a, s, impulse, sent, flags, i, capacity, impulses);
 #endif
   return flags;
 }
@@ -182,17 +224,6 @@ INLINE Real3 spoiltBy(Real3 radiance, Real3 magnitude) {
   return choose3(clean, radiance, magnitude);
 }
 
-/// Keeps one of two impulses with probability proportional to its luminance, divided by that probability.
-INLINE void chooseOne(Impulse* first, Impulse* second, Real u) {
-  const Real3 zero = same3((float3)(0.0f));
-  const Real a = luminance(first->magnitude), b = luminance(second->magnitude);
-  const Real sum = a + b;
-  const Mask any = sum > 0.0f;
-  const Real p = a / sum;
-  const Mask one = u < p;
-  first->magnitude = choose3(any, choose3(one, over3(first->magnitude, p), zero), first->magnitude);
-  second->magnitude = choose3(any, choose3(one, zero, over3(second->magnitude, 1.0f - p)), second->magnitude);
-}
 #endif
 
 #if HAS(STRAIGHT) && HAS(BOTH_BRANCHES)
@@ -200,26 +231,6 @@ INLINE void chooseOne(Impulse* first, Impulse* second, Real u) {
 INLINE Natural branching(const Impulse* first, const Impulse* second) {
   const Mask two = anyPositive(first->magnitude) & anyPositive(second->magnitude);
   return two & (first->straight | second->straight) ? (Natural)(ENTRY_BRANCHED) : (Natural)(0);
-}
-#endif
-
-#if HAS(IMPULSES) && !HAS(BOTH_BRANCHES)
-/// Where no surface sends out two impulses: the one there is.
-INLINE Impulse existing(const Impulse* first, const Impulse* second) {
-  const Mask isSecond = anyPositive(second->magnitude);
-  Impulse only;
-  only.w_i = choose3(isSecond, second->w_i, first->w_i);
-  only.magnitude = choose3(isSecond, second->magnitude, first->magnitude);
-  only.straight = isSecond ? second->straight : first->straight;
-  return only;
-}
-#endif
-
-#if HAS(ONE_IMPULSE)
-INLINE Real randomNumber(const SampleNames* names, uint dimension, uint seed) {
-  float own[LANES];
-  for (uint k = 0; k < LANES; ++k) own[k] = unitFloat(hash4(names->place[k], names->sample[k], dimension, seed));
-  return LOAD(own);
 }
 #endif
 
@@ -307,11 +318,17 @@ __kernel void shade(SCENE_PARAMS, const RenderConstants constants, const Batch b
 #endif
     impulsesAt(&own, &s, w_o, facets, &one, &two);
     shaded = spoiltBy(shaded, add3(one.magnitude, two.magnitude));
-#if HAS(ONE_IMPULSE)
-    chooseOne(&one, &two, randomNumber(&names, 16u + bounce, own.seed));
-#endif
     Real3 throughput = attenuation;
     if (bounce > 1) throughput = mul3(loadReal3(rays, capacity, RAY_THROUGHPUT, first + i), attenuation);
+#if HAS(ONE_IMPULSE)
+    const Real choice = randomNumber(&names, 16u + bounce, own.seed);
+#if HAS(DISPERSION)
+    keepCarried(&two, throughput);
+    const Real ofFirst = luminance(one.magnitude) / (luminance(one.magnitude) + luminance(two.magnitude));
+    chooseColor(&s, &two, (choice - ofFirst) / (1.0f - ofFirst));
+#endif
+    chooseOne(&one, &two, choice);
+#endif
     const Mask last = (Natural)(bounce) >= (Natural)(lastBounce);
 #if HAS(BOTH_BRANCHES)
 #if HAS(STRAIGHT)

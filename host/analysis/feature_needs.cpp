@@ -102,7 +102,7 @@ std::vector<FeatureNeed> needsOfTextures() {
                                  {DEEP_TEXTURES, {TEXTURES}},
                                  {TEXTURE_LEVELS, {TEXTURES}}};
 #undef WHITTLE_FEATURE
-  // Those of layers are read where their layer is there.
+  // Those that belong to something are read where that is there.
 #define WHITTLE_NEEDS(slot, FEATURE, encoding, factor, OTHERS) \
   needs.push_back({FEATURE, {TEXTURES}});                      \
   needs.push_back({FEATURE, WHITTLE_LIST OTHERS});

@@ -21,7 +21,7 @@ constexpr std::uint64_t kNeverGeneral =
 constexpr std::uint64_t kRichAlone =
     maskOf(Feature::LIGHT_SIZE, Feature::SURFACE_LIGHTS, Feature::SKY_LIGHTS, Feature::GLOSS, Feature::LENS,
            Feature::CUTOFF, Feature::AOVS, Feature::NEAR_PLANE, Feature::CLEARCOAT, Feature::SHEEN,
-           Feature::IRIDESCENCE, Feature::ANISOTROPY);
+           Feature::IRIDESCENCE, Feature::ANISOTROPY, Feature::DISPERSION, Feature::DIFFUSE_TRANSMISSION);
 
 /// What a general program must not have, given what the scene has.
 std::uint64_t unwanted(const SceneFeatures& features, const Settings& settings) {
@@ -52,7 +52,8 @@ std::optional<GeneralProgram> generalProgramFor(const SceneFeatures& features, c
 
 std::uint64_t generalBufferFeatures(const GeneralProgram& program) {
   return program.features & maskOf(Feature::TREE, Feature::TEXTURES, Feature::ABSORPTION, Feature::STRAIGHT,
-                                   Feature::IMPULSES, Feature::BOTH_BRANCHES, Feature::TEXTURE_LEVELS);
+                                   Feature::IMPULSES, Feature::BOTH_BRANCHES, Feature::TEXTURE_LEVELS,
+                                   Feature::DISPERSION);
 }
 
 }  // namespace whittle

@@ -85,6 +85,8 @@ void dropUnusedLayers(Material& m) {
   }
   if (!m.iridescenceThicknessTexture.used()) m.leastThickness = plain.leastThickness;
   if (!isAnisotropic(m)) m.anisotropyRotation = plain.anisotropyRotation;
+  if (!disperses(m)) m.dispersion = plain.dispersion;
+  if (!transmitsDiffusely(m)) m.diffuseTransmissionColor = plain.diffuseTransmissionColor;
 }
 
 class Bits {

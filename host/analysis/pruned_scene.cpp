@@ -180,6 +180,13 @@ void keepLights(const Scene& scene, PrunedScene& pruned) {
   }
 }
 
+void lightBothSides(PrunedScene& pruned) {
+  if (std::none_of(pruned.materials.begin(), pruned.materials.end(), transmitsDiffusely)) return;
+  std::vector<std::uint32_t> twice;
+  for (const std::uint32_t light : pruned.lights) twice.insert(twice.end(), 2, light);
+  pruned.lights = std::move(twice);
+}
+
 /// Leaves out the vertices that no triangle has, if there are any and vertices carry anything at all.
 void keepVertices(const Scene& scene, PrunedScene& pruned) {
   const std::size_t count = scene.positions.size();
@@ -210,6 +217,7 @@ PrunedScene unprunedScene(const Scene& scene) {
   pruned.materialOf = identity(scene.materials.size());
   pruned.images = identity(scene.images.size());
   pruned.lights = identity(scene.lights.size());
+  lightBothSides(pruned);
   pruned.vertexCount = scene.positions.size();
   pruned.pruning.materials.all = scene.materials.size();
   pruned.pruning.images.all = scene.images.size();
@@ -238,6 +246,7 @@ PrunedScene pruneScene(const Scene& scene, const Settings& settings, TexelFacts*
   keepMaterials(used, read, pruned);
   keepImages(scene.images.size(), pruned);
   keepLights(scene, pruned);
+  lightBothSides(pruned);
   keepVertices(scene, pruned);
   pruned.narrowCorners = pruned.vertexCount <= kNarrowVertices;
   return pruned;

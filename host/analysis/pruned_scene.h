@@ -23,7 +23,9 @@ struct PrunedScene {
   std::vector<Material> materials;  ///< as the device gets them; their slots' `image` counts in `images`
   std::vector<std::uint32_t> materialOf;  ///< [Scene::materials] index into `materials`, or kNotUsed
   std::vector<std::uint32_t> images;      ///< indices into Scene::images
-  std::vector<std::uint32_t> lights;      ///< indices into Scene::lights, in the scene's order
+  /// Indices into Scene::lights, in the scene's order; each twice where a material transmits diffusely: for
+  /// the viewer's side of a surface, then for the other.
+  std::vector<std::uint32_t> lights;
   /// [vertices] index into the device's arrays of attributes, or kNotUsed; empty: all of them go as they are.
   std::vector<std::uint32_t> vertexOf;
   std::size_t vertexCount = 0;  ///< on the device

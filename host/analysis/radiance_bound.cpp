@@ -138,7 +138,10 @@ Surface surfaceOf(const Material& m, const Settings& settings, const glm::dvec3&
   const double lobe = largestLobe(std::max(least * least, 1e-3));
   for (int c = 0; c < 3; ++c) {
     const double around = arriving.allAround[c];
-    s.matte[c] = times(s.color[c] / std::numbers::pi, arriving.biradiance[c]) + around * s.color[c];
+    // What is sent back to one side comes from the other with another colour, none of it from both.
+    const double through = transmitsDiffusely(m) ? static_cast<double>(m.diffuseTransmissionColor[c]) : 0.0;
+    const double matte = std::max(s.color[c], through);
+    s.matte[c] = times(matte / std::numbers::pi, arriving.biradiance[c]) + around * matte;
     s.highlight[c] = times(lobe, arriving.biradiance[c]) + around * std::max(1.0, s.color[c]);
   }
   if (isIridescent(m)) s.specular = 1;

@@ -117,6 +117,15 @@ void readExtensions(const Json& json, const std::string& label, TextureReader& t
     out.specularColor = colour(*e, "specularColorFactor", 1.0F);
     out.specularColorTexture = textures.slot(*e, "specularColorTexture");
   }
+  if (const Json* e = extension(json, "KHR_materials_dispersion")) {
+    out.dispersion = factor(*e, "dispersion", 0.0);
+  }
+  if (const Json* e = extension(json, "KHR_materials_diffuse_transmission")) {
+    out.diffuseTransmission = factor(*e, "diffuseTransmissionFactor", 0.0);
+    out.diffuseTransmissionTexture = textures.slot(*e, "diffuseTransmissionTexture");
+    out.diffuseTransmissionColor = colour(*e, "diffuseTransmissionColorFactor", 1.0F);
+    out.diffuseTransmissionColorTexture = textures.slot(*e, "diffuseTransmissionColorTexture");
+  }
   if (const Json* e = extension(json, "KHR_materials_volume")) readVolume(*e, label, out, notices);
   readLayers(json, textures, out);
   out.unlit = extension(json, "KHR_materials_unlit") != nullptr;

@@ -174,13 +174,19 @@ constexpr auto kIridescence =
                          object("iridescenceThicknessTexture", kSlot)});
 constexpr auto kAnisotropy = forgiving(
     std::array{num("anisotropyStrength"), num("anisotropyRotation"), object("anisotropyTexture", kSlot)});
+constexpr auto kDispersion = forgiving(std::array{num("dispersion")});
+constexpr auto kDiffuseTransmission = forgiving(
+    std::array{num("diffuseTransmissionFactor"), object("diffuseTransmissionTexture", kSlot),
+               nums("diffuseTransmissionColorFactor", 3), object("diffuseTransmissionColorTexture", kSlot)});
 constexpr auto kMaterialExtensions = forgiving(std::array{
     object("KHR_materials_pbrSpecularGlossiness", kSpecularGlossiness),
     object("KHR_materials_emissive_strength", kEmissiveStrength), object("KHR_materials_ior", kIor),
     object("KHR_materials_transmission", kTransmission), object("KHR_materials_volume", kVolume),
     object("KHR_materials_specular", kSpecular), object("KHR_materials_unlit", {}),
     object("KHR_materials_clearcoat", kClearcoat), object("KHR_materials_sheen", kSheen),
-    object("KHR_materials_iridescence", kIridescence), object("KHR_materials_anisotropy", kAnisotropy)});
+    object("KHR_materials_iridescence", kIridescence), object("KHR_materials_anisotropy", kAnisotropy),
+    object("KHR_materials_dispersion", kDispersion),
+    object("KHR_materials_diffuse_transmission", kDiffuseTransmission)});
 constexpr auto kMaterial = forgiving(std::array{
     text("name"), object("pbrMetallicRoughness", kPbr), object("normalTexture", kSlot),
     object("occlusionTexture", kSlot), object("emissiveTexture", kSlot), nums("emissiveFactor", 3),

@@ -60,10 +60,10 @@ Vec3 reflectedDirection(const Vec3& n, const Vec3& facing, const Vec3& w_o) {
 }
 
 /// Where light seen through the surface comes from; nothing at total reflection.
-std::optional<Vec3> transmittedDirection(const Surfel& surfel, const Vec3& w_o) {
-  if (!surfel.volume || surfel.eta == 1) return -w_o;
-  const auto w_i = refracted(w_o, surfel.n, surfel.eta);
-  if (w_i && glm::dot(surfel.facing, *w_i) >= 0) return refracted(w_o, surfel.facing, surfel.eta);
+std::optional<Vec3> transmittedDirection(const Surfel& surfel, const Vec3& w_o, double eta) {
+  if (!surfel.volume || eta == 1) return -w_o;
+  const auto w_i = refracted(w_o, surfel.n, eta);
+  if (w_i && glm::dot(surfel.facing, *w_i) >= 0) return refracted(w_o, surfel.facing, eta);
   return w_i;
 }
 
@@ -89,18 +89,27 @@ double reflectedShare(const Facets& f, const Vec3& facing, const Vec3& w_o, cons
 }
 
 /// Where a glossy surfel sends what goes through one of its facets, and G1 of the way there.
-std::optional<Vec3> transmittedByFacet(const Surfel& s, const Vec3& w_o, const Vec3& facet, double& share) {
-  if (!s.volume || s.eta == 1) return -w_o;
-  const auto w_i = refracted(w_o, facet, s.eta);
+std::optional<Vec3> transmittedByFacet(const Surfel& s, const Vec3& w_o, const Vec3& facet, double eta,
+                                       double& share) {
+  if (!s.volume || eta == 1) return -w_o;
+  const auto w_i = refracted(w_o, facet, eta);
   if (!w_i || !(glm::dot(s.facing, *w_i) < 0 && glm::dot(s.n, *w_i) < 0)) return std::nullopt;
   share = 1 / (1 + hidden(facetsOf(s), *w_i));
   return w_i;
 }
 
+Vec3 dielectricAt(const ThinFilm& film, const TintedFresnel& fresnel, double eta, double cosine) {
+  const bool total = fresnel.r0 < 1 && eta != 1 && totallyReflected(cosine, eta);
+  const Vec3 clear = fresnel.reflectance(cosine, eta);
+  return total ? clear : film.over(clear, fresnel.f0, cosine);
+}
+
 Vec3 dielectricAt(const Surfel& s, double cosine) {
-  const bool total = s.fresnel.r0 < 1 && s.eta != 1 && totallyReflected(cosine, s.eta);
-  const Vec3 clear = s.fresnel.reflectance(cosine, s.eta);
-  return total ? clear : s.film.over(clear, s.fresnel.f0, cosine);
+  if (!s.split) return dielectricAt(s.film, s.fresnel, s.eta, cosine);
+  Vec3 reflectance;
+  for (int c = 0; c < 3; ++c)
+    reflectance[c] = dielectricAt(s.film, s.split->fresnel[c], s.split->eta[c], cosine)[c];
+  return reflectance;
 }
 
 /// Of facets, as glTF's highlights have it.
@@ -129,7 +138,7 @@ double belowLayers(const Surfel& s, double cosO, double cosI) {
 /// Of the surface without its layers.
 Vec3 baseBsdf(const Surfel& s, const Vec3& w_i, const Vec3& w_o, bool withoutGloss) {
   const double no = glm::dot(s.n, w_o);
-  const Vec3 diffuse = (1 - s.transmission) * s.baseColor / kPi;
+  const Vec3 diffuse = (1 - s.transmission) * (1 - s.diffuseTransmission) * s.baseColor / kPi;
   if (s.smooth) return (1 - s.metallic) * (1.0 - dielectricAt(s, no)) * diffuse;
 
   const Vec3 h = glm::normalize(w_i + w_o);
@@ -138,6 +147,16 @@ Vec3 baseBsdf(const Surfel& s, const Vec3& w_i, const Vec3& w_o, bool withoutGlo
   const Vec3 dielectric = roughDielectricAt(s, oh);
   return (1 - s.metallic) * ((1 - maxComponent(dielectric)) * diffuse + dielectric * lobe) +
          s.metallic * metalAt(s, oh) * lobe;
+}
+
+/// Lambert's part for light from the other side, w_i, without the layers. `mirrored`: where that would come
+/// from on the viewer's side, as whose the surface reflects it on its way.
+Vec3 throughBsdf(const Surfel& s, const Vec3& mirrored, const Vec3& w_o) {
+  const double oh = glm::dot(w_o, glm::normalize(mirrored + w_o));
+  const Vec3 kept =
+      s.smooth ? 1.0 - dielectricAt(s, glm::dot(s.n, w_o)) : Vec3(1 - maxComponent(roughDielectricAt(s, oh)));
+  return (1 - s.metallic) * (1 - s.transmission) * s.diffuseTransmission * kept * s.diffuseTransmissionColor /
+         kPi;
 }
 
 /// Of the coat; irradiance counts by the cosine to its own normal.
@@ -167,7 +186,9 @@ Impulse coatImpulse(const Surfel& s, const Vec3& w_o, const Vec2& facets) {
 }  // namespace
 
 Vec3 spreadingBsdf(const Surfel& s, const Vec3& w_i, const Vec3& w_o, bool withoutGloss) {
-  const double no = glm::dot(s.n, w_o), ni = glm::dot(s.n, w_i), albedo = sheenAlbedo(s, no, ni);
+  const double no = glm::dot(s.n, w_o), ni = glm::dot(s.n, w_i);
+  if (ni < 0) return belowLayers(s, no, -ni) * throughBsdf(s, w_i - 2 * ni * s.n, w_o);
+  const double albedo = sheenAlbedo(s, no, ni);
   Vec3 f = belowSheen(s, albedo) * baseBsdf(s, w_i, w_o, withoutGloss);
   if (s.sheen.isThere()) {
     const double nh = glm::dot(s.n, glm::normalize(w_i + w_o));
@@ -178,13 +199,54 @@ Vec3 spreadingBsdf(const Surfel& s, const Vec3& w_i, const Vec3& w_o, bool witho
 
 Vec3 ambientReflectance(const Surfel& s, const Vec3& w_o) {
   const double no = std::min(1.0, glm::dot(s.n, w_o)), albedo = sheenAlbedo(s, no, no);
-  const Vec3 matte = (1 - s.metallic) * (1 - s.transmission) * s.baseColor;
+  const Vec3 color =
+      (1 - s.diffuseTransmission) * s.baseColor + s.diffuseTransmission * s.diffuseTransmissionColor;
+  const Vec3 matte = (1 - s.metallic) * (1 - s.transmission) * color;
   Vec3 share = matte + s.metallic * s.baseColor;
   if (s.smooth || s.glossy) share = matte * (1.0 - dielectricAt(s, no));
   share = belowSheen(s, albedo) * share + s.sheen.color * std::min(albedo, 1.0);
   const bool isCoatInImpulses = s.coat.smooth || s.coat.glossy;
   return (1 - s.coat.reflectance) * share + (isCoatInImpulses ? 0.0 : s.coat.reflectance);
 }
+
+namespace {
+
+/// What goes through, of all colours alike or of one.
+Impulse refraction(const Surfel& s, const Vec3& w_o, const Vec3& n, double eta, const Vec3& carried) {
+  Impulse impulse{-w_o, Vec3(0), true, !s.volume || s.eta == 1, s.split.has_value(), eta};
+  double share = 1;
+  const auto beyond =
+      s.glossy ? transmittedByFacet(s, w_o, n, eta, share) : transmittedDirection(s, w_o, eta);
+  if (!beyond || !(s.transmission > 0) || s.unlit) return impulse;
+  impulse.w_i = *beyond;
+  impulse.magnitude = share * s.alpha * (1 - s.metallic) * s.transmission * carried;
+  return impulse;
+}
+
+/// The same of each colour.
+std::array<Impulse, 3> refractions(const Surfel& s, const Vec3& w_o, const Vec3& n, const Vec3& carried) {
+  if (!s.split) return {refraction(s, w_o, n, s.eta, carried)};
+  std::array<Impulse, 3> all;
+  for (int c = 0; c < 3; ++c) {
+    Vec3 own(0);
+    own[c] = carried[c];
+    all[c] = refraction(s, w_o, n, s.split->eta[c], own);
+  }
+  return all;
+}
+
+/// 1 for each channel that is totally reflected inside a solid.
+Vec3 reflectedInside(const Surfel& s, double cosine) {
+  Vec3 inside(0);
+  if (!(s.volume && s.transmission > 0)) return inside;
+  for (int c = 0; c < 3; ++c) {
+    const double eta = s.split ? s.split->eta[c] : s.eta;
+    inside[c] = eta != 1 && eta > 0 && totallyReflected(cosine, eta) ? 1 : 0;
+  }
+  return inside;
+}
+
+}  // namespace
 
 Impulses impulsesOf(const Surfel& s, const Vec3& w_o, const Vec2& facets) {
   const Vec3 n = s.glossy ? visibleNormal(facetsOf(s), w_o, facets) : s.n;
@@ -193,23 +255,15 @@ Impulses impulsesOf(const Surfel& s, const Vec3& w_o, const Vec2& facets) {
   const Vec3 dielectric = isOpaqueGloss ? roughDielectricAt(s, cosine) : dielectricAt(s, cosine);
   const double cosO = glm::dot(s.n, w_o);
   Impulse straight{-w_o, Vec3(1 - s.alpha), true, true};
-  Impulse transmission{-w_o, Vec3(0), true, !s.volume || s.eta == 1};
   Impulse reflection{w_o, Vec3(0), false};
 
-  double share = 1;
-  const auto beyond = !(s.transmission > 0) || s.unlit ? std::nullopt
-                      : s.glossy                       ? transmittedByFacet(s, w_o, n, share)
-                                                       : transmittedDirection(s, w_o);
-  if (beyond) {
-    transmission.w_i = *beyond;
-    transmission.magnitude = belowLayers(s, cosO, cosO) * share * s.alpha * (1 - s.metallic) *
-                             s.transmission * s.baseColor * (1.0 - dielectric);
-  }
-  const bool refracts = s.volume && s.transmission > 0 && s.eta != 1 && s.eta > 0;
-  const bool reflectedInside = refracts && totallyReflected(cosine, s.eta);
-  if ((s.smooth || s.glossy || reflectedInside) && !s.unlit) {
+  std::array<Impulse, 3> through =
+      refractions(s, w_o, n, belowLayers(s, cosO, cosO) * s.baseColor * (1.0 - dielectric));
+  const Vec3 transmitted = through[0].magnitude + through[1].magnitude + through[2].magnitude;
+  const Vec3 reflects = s.smooth || s.glossy ? Vec3(1) : reflectedInside(s, cosine);
+  if (anyPositive(reflects) && !s.unlit) {
     reflection.w_i = s.glossy ? mirrored(w_o, n) : reflectedDirection(s.n, s.facing, w_o);
-    reflection.magnitude = belowLayers(s, cosO, glm::dot(s.n, reflection.w_i)) *
+    reflection.magnitude = reflects * belowLayers(s, cosO, glm::dot(s.n, reflection.w_i)) *
                            (s.glossy ? reflectedShare(facetsOf(s), s.facing, w_o, reflection.w_i) : 1) *
                            s.alpha * ((1 - s.metallic) * dielectric + s.metallic * metalAt(s, cosine));
   }
@@ -219,29 +273,41 @@ Impulses impulsesOf(const Surfel& s, const Vec3& w_o, const Vec2& facets) {
     // Added, not put in its place: what is no number stays none.
     if (anyPositive(coat.magnitude)) reflection.w_i = coat.w_i;
     reflection.magnitude += std::exchange(coat.magnitude, Vec3(0));
-  } else if (alike || s.alpha < 1 || anyPositive(transmission.magnitude)) {  // no room for a third
+  } else if (alike || s.alpha < 1 || anyPositive(transmitted)) {  // no room for a third
     reflection.magnitude += std::exchange(coat.magnitude, Vec3(0));
   }
   if (!s.volume && s.alpha < 1) {  // what comes through a sheet goes on the same way: one ray does for both
-    straight.magnitude += transmission.magnitude;
-    transmission.magnitude = Vec3(0);
+    straight.magnitude += std::exchange(through[0].magnitude, Vec3(0));
   }
   Impulses impulses;
   impulses.add(straight);
   impulses.add(coat);
-  if (!(anyPositive(straight.magnitude) && anyPositive(transmission.magnitude))) impulses.add(reflection);
-  impulses.add(transmission);
+  const bool isFull = anyPositive(straight.magnitude) && anyPositive(transmitted) && s.volume;
+  if (!isFull) impulses.add(reflection);
+  for (const Impulse& impulse : through) impulses.add(impulse);
   return impulses;
+}
+
+Impulses carriedBy(const Impulses& impulses, const Vec3& throughput) {
+  Impulses carried;
+  for (const Impulse& impulse : impulses.all())
+    if (!impulse.splits || anyPositive(throughput * impulse.magnitude)) carried.add(impulse);
+  return carried;
 }
 
 Impulses chooseOne(const Impulses& impulses, double u) {
   if (impulses.count < 2) return impulses;
-  const double first = luminance(impulses.items[0].magnitude);
-  const double p = first / (first + luminance(impulses.items[1].magnitude));
-  Impulse chosen = u < p ? impulses.items[0] : impulses.items[1];
-  chosen.magnitude /= u < p ? p : 1 - p;
+  double sum = 0, until = 0;
+  for (const Impulse& impulse : impulses.all()) sum += luminance(impulse.magnitude);
   Impulses one;
-  one.add(chosen);
+  for (const Impulse& impulse : impulses.all()) {
+    const double p = luminance(impulse.magnitude) / sum;
+    until += p;
+    if (!(u < until) && &impulse != &impulses.all().back()) continue;
+    one.add(impulse);
+    one.items[0].magnitude /= p;
+    break;
+  }
   return one;
 }
 

@@ -8,7 +8,7 @@
 
 namespace whittle::reference {
 
-/// BSDF for light from w_i (unit, on the viewer's side), 1/sr, without impulses and without coverage.
+/// BSDF for light from w_i (unit, on either side), 1/sr, without impulses and without coverage.
 /// `withoutGloss`: what a glossy surfel's impulses have is left out.
 Vec3 spreadingBsdf(const Surfel& surfel, const Vec3& w_i, const Vec3& w_o, bool withoutGloss = false);
 
@@ -22,11 +22,13 @@ struct Impulse {
   Vec3 magnitude;         ///< RGB factor
   bool through;           ///< leaves on the side that the viewer is not on
   bool straight = false;  ///< goes on the way the light came, as though nothing were there
+  bool splits = false;    ///< one of the colours of a refraction; with the others it is one to all limits
+  double eta = 1;         ///< of such a colour: index beyond over index on the viewer's side
 };
 
-/// At most two, none of them dark.
+/// None of them dark: at most two, of which a refraction may be three.
 struct Impulses {
-  std::array<Impulse, 2> items;
+  std::array<Impulse, 4> items;
   int count = 0;
 
   void add(const Impulse& impulse) {
@@ -37,6 +39,9 @@ struct Impulses {
 
 /// `facets`: of a glossy surfel which of the microfacets that w_o sees, a point of the unit square.
 Impulses impulsesOf(const Surfel& surfel, const Vec3& w_o, const Vec2& facets = Vec2(0));
+
+/// Without the colours of a refraction that the throughput has nothing of.
+Impulses carriedBy(const Impulses& impulses, const Vec3& throughput);
 
 /// One of them, chosen with probability in proportion to its luminance by `u` in [0,1), divided by that.
 Impulses chooseOne(const Impulses& impulses, double u);

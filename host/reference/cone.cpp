@@ -38,7 +38,7 @@ Cone afterImpulse(const Cone& cone, double width, const Surfel& surfel, const Ve
     const double inPlane = 2 * turn / in, across = 2 * turn * in;
     return {width, limited(cone.spread + (inPlane + across) / 2)};
   }
-  const double eta = 1 / surfel.eta;  // the index here over that beyond
+  const double eta = 1 / (impulse.splits ? impulse.eta : surfel.eta);  // the index here over that beyond
   const double inPlane = eta * in / out * cone.spread - turn / in * (1 - eta * in / out);
   const double across = eta * cone.spread - turn * (out - eta * in);
   return {(width + width * out / in) / 2, limited((inPlane + across) / 2)};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "kernels/shared/layout.h"
 #include "reference/cone.h"
@@ -114,8 +115,8 @@ double transmissionAt(const Lookups& look, const Material& material) {
   return std::clamp(material.transmission * look.of(material.transmissionTexture).r, 0.0, 1.0);
 }
 
-TintedFresnel fresnelAt(const Lookups& look, const Material& material) {
-  return TintedFresnel(material.ior, material.specular * look.of(material.specularTexture).a,
+TintedFresnel fresnelAt(const Lookups& look, const Material& material, double index) {
+  return TintedFresnel(index, material.specular * look.of(material.specularTexture).a,
                        Vec3(material.specularColor) * Vec3(look.of(material.specularColorTexture, kColors)));
 }
 
@@ -123,6 +124,18 @@ TintedFresnel fresnelAt(const Lookups& look, const Material& material) {
 double relativeIndex(const Material& material, bool front) {
   const double ior = material.ior;
   return front || !material.volume || ior == 0 ? ior : 1 / ior;
+}
+
+/// Red bends least. Whatever has no greater index inside than outside splits nothing.
+std::optional<Dispersion> splitAt(const Lookups& look, const Material& material, const Surfel& surfel) {
+  const double ior = material.ior, half = (ior - 1) * 0.025 * static_cast<double>(material.dispersion);
+  if (!(surfel.volume && surfel.transmission > 0 && ior > 1 && material.dispersion > 0)) return std::nullopt;
+  const std::array<double, 3> index{std::max(1.0, ior - half), ior, ior + half};
+  Dispersion split{{fresnelAt(look, material, index[0]), fresnelAt(look, material, index[1]),
+                    fresnelAt(look, material, index[2])},
+                   index};
+  for (double& eta : split.eta) eta = surfel.front ? eta : 1 / eta;
+  return split;
 }
 
 Coat coatAt(const Lookups& look, const Material& m, const Settings& settings, const Vec3& n,
@@ -206,7 +219,7 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
       .glossy = false,
       .volume = material.volume,
       .unlit = material.unlit,
-      .fresnel = fresnelAt(look, material),
+      .fresnel = fresnelAt(look, material, material.ior),
       .eta = 1,
       .emission = Vec3(0),
       .sigma_a = Vec3(material.sigma_a),
@@ -214,8 +227,10 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
   surfel.smooth = surfel.roughness < static_cast<double>(settings.mirrorRoughness);
   surfel.glossy = settings.glossy && !surfel.smooth && !surfel.unlit;
   surfel.eta = relativeIndex(material, surfel.front);
-  if (settings.smoothTerminator)
+  if (settings.smoothTerminator) {
     surfel.lift = liftAt(scene, triangles, hit, surfel.position, n_g, surfel.front);
+    surfel.liftBehind = liftAt(scene, triangles, hit, surfel.position, n_g, !surfel.front);
+  }
   if (!surfel.front) {
     surfel.facing = -surfel.facing;
     surfel.bend = -surfel.bend;
@@ -229,6 +244,12 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
     surfel.emission = Vec3(material.emission) * Vec3(look.of(material.emissionTexture, kColors));
   }
   if (material.unlit) return surfel;
+  surfel.split = splitAt(look, material, surfel);
+  for (int c = 0; c < 3 && surfel.split; ++c) surfel.fresnel.f0[c] = surfel.split->fresnel[c].f0[c];
+  surfel.diffuseTransmission =
+      std::clamp(material.diffuseTransmission * look.of(material.diffuseTransmissionTexture).a, 0.0, 1.0);
+  surfel.diffuseTransmissionColor = Vec3(material.diffuseTransmissionColor) *
+                                    Vec3(look.of(material.diffuseTransmissionColorTexture, kColors));
   if (surfel.front || !material.volume) {
     const Vec3 n =
         mappedNormal(look, material.clearcoatNormalTexture, material.clearcoatNormalScale, unmapped);
@@ -238,6 +259,13 @@ Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIn
   surfel.sheen = sheenAt(look, material);
   surfel.film = filmAt(look, material);
   if (material.anisotropy > 0) layFacets(look, material, unmapped, surfel);
+  return surfel;
+}
+
+Surfel turnedOver(Surfel surfel) {
+  surfel.n = -surfel.n;
+  surfel.facing = -surfel.facing;
+  std::swap(surfel.lift, surfel.liftBehind);
   return surfel;
 }
 

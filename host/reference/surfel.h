@@ -1,6 +1,7 @@
 // The local surface at a hit: position, normals, and the material with its textures looked up.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "reference/fresnel.h"
@@ -19,6 +20,12 @@ struct Coat {
   Vec3 n{0};            ///< its own unit shading normal, n·w_o > 0
   bool smooth = false;  ///< as of the surfel
   bool glossy = false;
+};
+
+/// What dispersion makes of a glass: an interface for each colour (KHR_materials_dispersion).
+struct Dispersion {
+  std::array<TintedFresnel, 3> fresnel;
+  std::array<double, 3> eta;  ///< as of the surfel
 };
 
 struct Surfel {
@@ -49,6 +56,10 @@ struct Surfel {
   ThinFilm film = {};
   Vec3 grain{0};       ///< unit, across n: along it facets are rougher (KHR_materials_anisotropy); 0: none
   double stretch = 0;  ///< square of the strength
+  std::optional<Dispersion> split = {};
+  double diffuseTransmission = 0;  ///< the share of Lambert's part that leaves on the other side
+  Vec3 diffuseTransmissionColor{1};
+  std::optional<Vec3> liftBehind = {};  ///< `lift` of the other side, where light comes through from there
 };
 
 /// How a ray reads textures: the mean over what it stands for, where its cone is `width` metres wide. Without
@@ -61,6 +72,9 @@ struct Filtering {
 /// The surface as seen along `ray`, which hits it.
 Surfel makeSurfel(const Scene& scene, const Settings& settings, const TriangleIndex& triangles,
                   const Ray& ray, const Hit& hit, const Filtering& filtering = {});
+
+/// The same place as light on its other side finds it: position, normals and lift, nothing else.
+Surfel turnedOver(Surfel surfel);
 
 /// Whether the alpha mask leaves this hit standing.
 bool passesMask(const Scene& scene, const Hit& hit);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "reference/camera.h"
 #include "reference/emitters.h"
@@ -66,28 +67,35 @@ LightSample lightFor(const World& world, const Sample& sample, const Step& step,
   return spread(light, middle, world.settings, at);
 }
 
+/// Of one light what it brings to one side of a surface: `lit`, which is the surfel or turned over.
+Vec3 lightOnSide(const World& world, const Sample& sample, const Step& step, std::size_t i,
+                 const Surfel& surfel, const Surfel& lit, const Vec3& w_o, RayNotes& notes) {
+  const Light& light = world.scene.lights[i];
+  const auto [w_i, distance, biradiance] = lightFor(world, sample, step, i, lit);
+  const double cosine = glm::dot(lit.n, w_i);
+  if (!(cosine > 0 && (lit.lift || glm::dot(lit.facing, w_i) > 0))) return Vec3(0);
+  const Vec3 unshadowed =
+      surfel.alpha * spreadingBsdf(surfel, w_i, w_o, standsForOthers(light.kind)) * biradiance * cosine;
+  if (isDark(unshadowed)) return Vec3(0);
+  if (!light.castsShadows || !world.settings.shadows) {
+    notes.local(unshadowed);
+    return unshadowed;
+  }
+  ++sample.rays.shadow;
+  const Vec3 visible = visibility(world, lit, w_i, distance);
+  const Vec3 arrived = isDark(visible) ? Vec3(0) : unshadowed * visible;  // not NaN times 0
+  const auto [ray, length] = shadowRay(lit, w_i, distance);
+  notes.shadowRay(i, ray, length, unshadowed, arrived);
+  return arrived;
+}
+
 Vec3 directLight(const World& world, const Sample& sample, const Step& step, const Surfel& surfel,
                  const Vec3& w_o, RayNotes& notes) {
   Vec3 sum(0);
   for (std::size_t i = 0; i < world.scene.lights.size(); ++i) {
-    const Light& light = world.scene.lights[i];
-    const auto [w_i, distance, biradiance] = lightFor(world, sample, step, i, surfel);
-    const double cosine = glm::dot(surfel.n, w_i);
-    if (!(cosine > 0 && (surfel.lift || glm::dot(surfel.facing, w_i) > 0))) continue;
-    const Vec3 unshadowed =
-        surfel.alpha * spreadingBsdf(surfel, w_i, w_o, standsForOthers(light.kind)) * biradiance * cosine;
-    if (isDark(unshadowed)) continue;
-    if (light.castsShadows && world.settings.shadows) {
-      ++sample.rays.shadow;
-      const Vec3 visible = visibility(world, surfel, w_i, distance);
-      const Vec3 arrived = isDark(visible) ? Vec3(0) : unshadowed * visible;  // not NaN times 0
-      const auto [ray, length] = shadowRay(surfel, w_i, distance);
-      notes.shadowRay(i, ray, length, unshadowed, arrived);
-      sum += arrived;
-    } else {
-      notes.local(unshadowed);
-      sum += unshadowed;
-    }
+    sum += lightOnSide(world, sample, step, i, surfel, surfel, w_o, notes);
+    if (surfel.diffuseTransmission > 0)
+      sum += lightOnSide(world, sample, step, i, surfel, turnedOver(surfel), w_o, notes);
   }
   return sum;
 }
@@ -108,12 +116,16 @@ Vec3 impulseLight(const World& world, const Sample& sample, const Ray& arrived, 
   Impulses impulses = impulsesOf(surfel, -arrived.direction, facets);
   if (world.settings.impulses == ImpulseMode::One) {
     const auto dimension = static_cast<std::uint32_t>(kImpulseDimension + step.bounce + step.passed);
-    impulses = chooseOne(impulses, unit(hash(sample.pixel, sample.index, dimension, world.settings.seed)));
+    impulses = chooseOne(carriedBy(impulses, throughput),
+                         unit(hash(sample.pixel, sample.index, dimension, world.settings.seed)));
   }
-  const bool branches = impulses.count == 2 && (impulses.items[0].straight || impulses.items[1].straight);
+  const bool branches = impulses.count > 1 && (impulses.items[0].straight || impulses.items[1].straight);
   const Step passing{step.bounce, step.passed + 1, std::min(step.branched + (branches ? 1 : 0), 63),
                      hit,         notes.index(),   step.cone};
-  Vec3 sum(0);
+  Vec3 sum(0), refracted(0);
+  for (const Impulse& impulse : impulses.all())
+    if (impulse.splits) refracted += throughput * impulse.magnitude;
+  bool isCounted = false;  // that what splits has ended
   for (const Impulse& impulse : impulses.all()) {
     const Vec3 share = throughput * impulse.magnitude;
     if (!anyPositive(share)) {
@@ -121,14 +133,16 @@ Vec3 impulseLight(const World& world, const Sample& sample, const Ray& arrived, 
         notes.local(share), sum += share;  // NaN: not traced, but the sample counts as not finite
       continue;
     }
-    if (!isFollowed(world.settings, impulse, step, share)) {
-      (impulse.straight ? sample.rays.straight : sample.rays.bounces) += maxComponent(share);
-      notes.ended(share, false);
-      continue;
-    }
-    if (glm::all(glm::lessThanEqual(share, Vec3(world.settings.cutoff)))) {
-      sample.rays.cutOff += maxComponent(share);
-      notes.ended(share, true);
+    const Vec3 whole = impulse.splits ? refracted : share;
+    const bool goesOn = isFollowed(world.settings, impulse, step, whole);
+    const bool isWeak = glm::all(glm::lessThanEqual(whole, Vec3(world.settings.cutoff)));
+    if (!goesOn || isWeak) {
+      if (impulse.splits && std::exchange(isCounted, true)) continue;
+      double& ended = goesOn             ? sample.rays.cutOff
+                      : impulse.straight ? sample.rays.straight
+                                         : sample.rays.bounces;
+      ended += maxComponent(whole);
+      notes.ended(whole, goesOn);
       continue;
     }
     ++sample.rays.impulse;

@@ -145,18 +145,20 @@ TriTree buildTree(const Scene& scene, const Decisions& decisions) {
   return tree;
 }
 
-std::uint32_t queueCapacity(const Settings& s, const DeviceInfo& device) {
+/// Room for what a sample's slice sends out, of a picture that is small.
+std::uint32_t queueCapacity(const Settings& s, const SceneFeatures& features, const DeviceInfo& device) {
+  const std::uint64_t raysOfHit = std::max(mostRaysOfHit(features), 2U);
   const std::uint64_t samples = tracedRegion(s).pixels() * static_cast<std::uint64_t>(s.raysPerPixel);
   const std::uint64_t wanted = std::min<std::uint64_t>(
-      {static_cast<std::uint64_t>(s.wavefront), 2 * samples, loopLimits(device).entries / 64 * 64});
-  return static_cast<std::uint32_t>((std::max(wanted, std::uint64_t{2} * LONG_RUN) + 63) / 64 * 64);
+      {static_cast<std::uint64_t>(s.wavefront), raysOfHit * samples, loopLimits(device).entries / 64 * 64});
+  return static_cast<std::uint32_t>((std::max(wanted, raysOfHit * LONG_RUN) + 63) / 64 * 64);
 }
 
 SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
                            const Decisions& decisions, TriTree tree, Scene* consumed) {
   return {uploadScene(compute, scene, decisions.pruned, std::move(tree), decisions.buffers, consumed),
           RayQueues(compute, decisions.features, decisions.buffers, mostWaiting(decisions.lights),
-                    queueCapacity(settings, compute.device()), decisions.compactChunk)};
+                    queueCapacity(settings, decisions.features, compute.device()), decisions.compactChunk)};
 }
 
 void SceneBuffers::report(std::vector<BufferStats>& out) const {

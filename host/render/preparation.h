@@ -72,9 +72,10 @@ struct SceneBuffers {
 SceneBuffers allocateScene(Compute& compute, const Scene& scene, const Settings& settings,
                            const Decisions& decisions, TriTree tree, Scene* consumed = nullptr);
 
-/// Rays in flight: never more than the picture has samples (twice, for branching), never fewer than two long
-/// runs, nor more than the device's loops allow.
-std::uint32_t queueCapacity(const Settings& settings, const DeviceInfo& device);
+/// Rays in flight: never more than the picture has samples times the rays that a hit can send out (two at
+/// least), never fewer than what a long run sends out, nor more than the device's loops allow.
+std::uint32_t queueCapacity(const Settings& settings, const SceneFeatures& features,
+                            const DeviceInfo& device);
 
 /// With the sizes that were chosen where the user left them open.
 Settings settingsInEffect(const Settings& settings, const Decisions& decisions, const RayQueues& queues);

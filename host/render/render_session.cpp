@@ -207,8 +207,8 @@ void RenderSession::State::provideScene(Compute& compute, const Scene& from, con
 void RenderSession::State::provideQueues(Compute& compute, const Settings& settings,
                                          const Decisions& decisions, bool isPreview, PhaseLog& log) {
   QueueKey wanted{decisions.features.bits() & kQueueFeatures, decisions.buffers.bits() & kQueueFeatures,
-                  mostWaiting(decisions.lights), queueCapacity(settings, compute.device()),
-                  decisions.compactChunk};
+                  mostWaiting(decisions.lights),
+                  queueCapacity(settings, decisions.features, compute.device()), decisions.compactChunk};
   // A preview takes larger ones that are there, and leaves them to the render that follows.
   if (isPreview && queues.value) wanted.capacity = std::max(wanted.capacity, queues.key.capacity);
   work.queues = !queues.serves(wanted);

@@ -62,6 +62,10 @@ inline bool canReflect(const Material& m, float mirrorRoughness) {
 inline bool transmits(const Material& m) { return isLit(m) && m.transmission > 0.0F; }
 /// Bends what it transmits.
 inline bool refracts(const Material& m) { return transmits(m) && m.volume; }
+/// Bends each colour by itself (KHR_materials_dispersion).
+inline bool disperses(const Material& m) { return refracts(m) && m.dispersion > 0.0F && m.ior > 1.0F; }
+/// Lights on one side of it show on the other (KHR_materials_diffuse_transmission).
+inline bool transmitsDiffusely(const Material& m) { return isLit(m) && m.diffuseTransmission > 0.0F; }
 inline bool absorbs(const Material& m) { return m.volume && m.sigma_a != glm::vec3(0.0F); }
 inline bool isMasked(const Material& m) { return m.alphaMode == AlphaMode::Mask; }
 inline bool blends(const Material& m) { return m.alphaMode == AlphaMode::Blend; }

@@ -101,6 +101,13 @@ struct Material {
   float anisotropy = 0.0F;          ///< KHR_materials_anisotropy: strength; texture: blue channel
   float anisotropyRotation = 0.0F;  ///< radians, counter-clockwise from the tangent
   TextureSlot anisotropyTexture;    ///< red, green: direction in [-1, 1]²
+  float dispersion = 0.0F;          ///< KHR_materials_dispersion: 20 over the Abbe number; 0: none
+  /// KHR_materials_diffuse_transmission: the share of Lambert's part that leaves on the other side; texture:
+  /// alpha channel.
+  float diffuseTransmission = 0.0F;
+  TextureSlot diffuseTransmissionTexture;
+  glm::vec3 diffuseTransmissionColor{1.0F};  ///< of that share; texture is sRGB
+  TextureSlot diffuseTransmissionColorTexture;
   bool unlit = false;
   AlphaMode alphaMode = AlphaMode::Opaque;
   float alphaCutoff = 0.5F;

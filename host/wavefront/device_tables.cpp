@@ -19,7 +19,7 @@
 namespace whittle {
 namespace {
 
-static_assert(sizeof(device::DeviceLight) == 64);
+static_assert(sizeof(device::DeviceLight) == 68);
 static_assert(sizeof(device::DeviceTexture) == 56);
 
 std::size_t wordsOf(const Image& image, bool isDeep, Averaging levels) {
@@ -138,7 +138,8 @@ std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const Pruned
     const double s = std::sin(0.5 * angle);
     return static_cast<float>(2.0 * s * s);
   };
-  for (const std::uint32_t i : pruned.lights) {
+  for (std::size_t at = 0; at < pruned.lights.size(); ++at) {
+    const std::uint32_t i = pruned.lights[at];
     const Light& l = scene.lights[i];
     device::DeviceLight d{};
     copy3(d.intensity, l.intensity);
@@ -150,6 +151,7 @@ std::vector<device::DeviceLight> lightsToDevice(const Scene& scene, const Pruned
     d.versineOuter = versine(l.outerConeAngle);
     d.versineInner = versine(l.innerConeAngle);
     d.index = i;
+    d.behind = at > 0 && pruned.lights[at - 1] == i;
     d.emitters = static_cast<std::uint32_t>(emitters);
     out.push_back(d);
   }

@@ -20,6 +20,13 @@ std::uint32_t conePlanesFor(const SceneFeatures& features) {
   return features.has(Feature::TEXTURE_LEVELS) ? CONE_PLANES : 0;
 }
 
+/// Of all impulse candidates of a hit.
+std::uint32_t impulsePlanesFor(const SceneFeatures& features) {
+  const std::uint32_t cone = conePlanesFor(features), splits = mostRaysOfHit(features) > 2 ? 2 : 0;
+  const std::uint32_t candidates = features.has(Feature::BOTH_BRANCHES) ? 2 : 1;
+  return candidates * (IMPULSE_PLANES + cone) + splits * (SPLIT_PLANES + cone);
+}
+
 std::uint32_t rayPlanesFor(const SceneFeatures& features) {
   if (features.has(Feature::STRAIGHT)) return RAY_PLANES_STRAIGHT + conePlanesFor(features);
   return features.has(Feature::IMPULSES) ? RAY_PLANES + conePlanesFor(features) : EYE_RAY_PLANES;
@@ -36,7 +43,7 @@ std::uint32_t hitPlanesFor(const SceneFeatures& features) {
 RayQueues::RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacity, std::uint32_t compactChunk)
     : compute_(compute),
       capacity_(capacity),
-      segmentLimit_(asked.features.has(Feature::BOTH_BRANCHES) ? capacity / 2 : capacity),
+      segmentLimit_(capacity / mostRaysOfHit(asked.features)),
       rayPlanes_(rayPlanesFor(asked.planes)),
       hitPlanes_(hitPlanesFor(asked.planes)),
       impulsePlanes_(IMPULSE_PLANES + conePlanesFor(asked.features)),
@@ -56,9 +63,8 @@ RayQueues::RayQueues(Compute& compute, const Asked& asked, std::uint32_t capacit
   const std::size_t sets = asked.waitingLights;
   if (shadowRays) shadows = planes("shadows", sets * SHADOW_PLANES), shadowQueue = planes("shadowQueue", 1);
   // Kernels for two put the only one of a hit into either place.
-  const std::size_t impulsesOfHit = asked.planes.has(Feature::BOTH_BRANCHES) ? 2 : 1;
   if (impulseRays)
-    impulses = planes("impulses", impulsesOfHit * (IMPULSE_PLANES + conePlanesFor(asked.planes))),
+    impulses = planes("impulses", impulsePlanesFor(asked.planes)),
     entryRadiance = planes("entryRadiance", radiancePlanes_);
   if (shadowRays || impulseRays) {
     flags = compute.allocate("flags", (shadowRays ? sets : 1) * capacity + QUEUE_PADDING);

@@ -23,7 +23,13 @@ inline constexpr std::uint64_t kQueueFeatures =
     bitOf(Feature::TEXTURES) | bitOf(Feature::ABSORPTION) | bitOf(Feature::AOVS) | bitOf(Feature::FAR_PLANE) |
     bitOf(Feature::STRAIGHT) | bitOf(Feature::IMPULSES) | bitOf(Feature::BOTH_BRANCHES) |
     bitOf(Feature::COVERAGE) | bitOf(Feature::SHADOWS) | bitOf(Feature::COST) |
-    bitOf(Feature::TEXTURE_LEVELS);
+    bitOf(Feature::TEXTURE_LEVELS) | bitOf(Feature::DISPERSION);
+
+/// The most rays that a hit sends out: a reflection, and a refraction that splits into three.
+inline std::uint32_t mostRaysOfHit(const SceneFeatures& features) {
+  if (!features.has(Feature::BOTH_BRANCHES)) return 1;
+  return features.has(Feature::DISPERSION) ? 4 : 2;
+}
 
 class RayQueues {
  public:
@@ -42,7 +48,7 @@ class RayQueues {
                   capacity, compactChunk) {}
 
   std::uint32_t capacity() const { return capacity_; }
-  /// Entries a segment may have: half the capacity where a hit can send out two impulses.
+  /// Entries a segment may have: the capacity over the rays that a hit can send out.
   std::uint32_t segmentLimit() const { return segmentLimit_; }
   /// Without distances where nothing asks for them.
   std::uint32_t hitPlanes() const { return hitPlanes_; }

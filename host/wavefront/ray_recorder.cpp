@@ -71,7 +71,8 @@ void RayRecorder::readImpulses(std::uint32_t count, std::uint32_t bounce) {
   const std::uint32_t sets = features_.has(Feature::BOTH_BRANCHES) ? 2 : 1;
   for (std::uint32_t i = 0; i < count; ++i)
     for (std::uint32_t k = 0; k < sets; ++k) {
-      if (flags_[i] & (ENTRY_ENDED0 << k)) {
+      const bool splits = k == 1 && (flags_[i] & ENTRY_SPLIT1) == ENTRY_SPLIT1;
+      if (!splits && (flags_[i] & (ENTRY_ENDED0 << k))) {
         const float share =
             reader_.plane<float>(queues_.impulses, k * queues_.impulsePlanes() + IMPULSE_THROUGHPUT, i, 1)[0];
         of(i).ended.push_back({static_cast<double>(std::abs(share)), share < 0.0F});
@@ -80,9 +81,19 @@ void RayRecorder::readImpulses(std::uint32_t count, std::uint32_t bounce) {
       RayRecord child;
       child.parent = static_cast<int>(segment_[i]);
       child.goesStraight = features_.has(Feature::STRAIGHT) && (flags_[i] & (ENTRY_STRAIGHT0 << k));
-      entries_[bounce + 1].push_back(rays_.size());
-      rays_.push_back(child);
+      for (std::uint32_t ray = 0; ray < (splits ? carriedChannels(i) : 1); ++ray) {
+        entries_[bounce + 1].push_back(rays_.size());
+        rays_.push_back(child);
+      }
     }
+}
+
+std::uint32_t RayRecorder::carriedChannels(std::uint32_t entry) const {
+  std::uint32_t carried = 0;
+  for (std::uint32_t channel = 0; channel < 3; ++channel)
+    carried += reader_.plane<float>(queues_.impulses, queues_.impulsePlanes() + IMPULSE_THROUGHPUT + channel,
+                                    entry, 1)[0] > 0.0F;
+  return carried;
 }
 
 void RayRecorder::shaded(const ObservedSegment& s, const LightTurn& turn) {

@@ -28,6 +28,8 @@ class RayRecorder : public WavefrontObserver {
   void readRays(const ObservedSegment& s);
   void readHits(std::uint32_t count);
   void readImpulses(std::uint32_t count, std::uint32_t bounce);
+  /// Rays that an impulse that splits becomes.
+  std::uint32_t carriedChannels(std::uint32_t entry) const;
   RayRecord& of(std::uint32_t entry) { return rays_[segment_[entry]]; }
 
   Compute& compute_;

@@ -37,8 +37,11 @@ struct StageConditions {
 
   bool shadows() const { return features.has(Feature::SHADOWS); }
   bool impulses() const { return features.has(Feature::IMPULSES); }
-  /// A sample has at most 2^(bounce - 1) entries in the queue of a bounce.
-  bool longRuns() const { return features.has(Feature::BOTH_BRANCHES) && bounces >= 10; }
+  /// A sample has at most 2^(bounce - 1) entries in the queue of a bounce, three times as many where some
+  /// split, which each does once.
+  bool longRuns() const {
+    return features.has(Feature::BOTH_BRANCHES) && bounces >= (features.has(Feature::DISPERSION) ? 8 : 10);
+  }
 };
 
 /// Items that one work item takes.
@@ -165,7 +168,7 @@ struct CompactCount {
   Count count = 0, capacity = 0;
   Count set = 0;  ///< of shadow candidates; impulses come with the first
   Global<const std::uint8_t> flags;
-  Global<const float> impulses;  ///< none: nothing can have ended
+  Global<const float> impulses;  ///< none: nothing can have ended or split
   Global<Count> totals;
   WHITTLE_ARGUMENTS(count, capacity, set, flags, impulses, totals)
 

@@ -218,13 +218,14 @@ Wavefront::Candidates Wavefront::takeTurns(const ObservedSegment& observed, cons
 Wavefront::Candidates Wavefront::countCandidates(Segment segment, bool mayEnd, std::uint32_t set) {
   if (!queues_.flags) return {};
   const Buffer none;
+  const bool maySplit = set == 0 && mostRaysOfHit(setup_.features) > 2;
   // What the first set has of impulses stands until they are compacted.
   const std::uint32_t kinds = set > 0 ? SUM_IMPULSE : (mayEnd ? SUM_ENDED + ENDED_KINDS : SUM_ENDED);
   stages_.run(stages::CompactCount{.count = segment.count(),
                                    .capacity = queues_.capacity(),
                                    .set = set,
                                    .flags = queues_.flags,
-                                   .impulses = mayEnd ? queues_.impulses : none,
+                                   .impulses = mayEnd || maySplit ? queues_.impulses : none,
                                    .totals = queues_.totals});
   stages_.run(stages::ScanChunks{
       .chunks = chunksOf(segment), .kinds = kinds, .totals = queues_.totals, .sums = queues_.sums});

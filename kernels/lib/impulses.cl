@@ -14,6 +14,12 @@
 #define IMPULSE_STRIDE IMPULSE_PLANES
 #endif
 
+// Of a second impulse that splits: behind the planes of both, for green and for blue.
+#if HAS(DISPERSION) && HAS(BOTH_BRANCHES)
+#define SPLIT_BASE (2 * IMPULSE_STRIDE)
+#define SPLIT_STRIDE (SPLIT_PLANES + IMPULSE_STRIDE - IMPULSE_PLANES)
+#endif
+
 #if HAS(STRAIGHT)
 #define RAY_CONE RAY_PLANES_STRAIGHT
 #else

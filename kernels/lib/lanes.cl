@@ -76,6 +76,11 @@ INLINE Real3 scale3(Real s, Real3 v) { return real3(s * v.x, s * v.y, s * v.z); 
 INLINE Real3 over3(Real3 v, Real s) { return real3(v.x / s, v.y / s, v.z / s); }
 INLINE Real3 minus3(Real3 v) { return real3(-v.x, -v.y, -v.z); }
 INLINE Real3 choose3(Mask m, Real3 a, Real3 b) { return real3(m ? a.x : b.x, m ? a.y : b.y, m ? a.z : b.z); }
+/// The same for each axis by itself.
+typedef struct {
+  Mask x, y, z;
+} Mask3;
+INLINE Real3 chooseEach3(Mask3 m, Real3 a, Real3 b) { return real3(m.x ? a.x : b.x, m.y ? a.y : b.y, m.z ? a.z : b.z); }
 INLINE Real dot3(Real3 a, Real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 INLINE Real3 cross3(Real3 a, Real3 b) {
   return real3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);

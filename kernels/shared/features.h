@@ -2,7 +2,7 @@
 // what a person calls it. The host hands the kernels ONE number (-D SCENE_FEATURES=0x…); kernels ask by
 // name: `#if HAS(EMISSION)`. Left out, everything is on, so that any kernel file compiles by itself. For
 // the host cmake/feature_list.cmake turns these lines into WHITTLE_FEATURES(X), with X(NAME, bit, "what a
-// person calls it"). All 64 bits are taken: see "Add a material extension" in host/README.md.
+// person calls it"). Bits that are free: 29, 30.
 #ifndef WHITTLE_FEATURES_H
 #define WHITTLE_FEATURES_H
 
@@ -33,10 +33,8 @@
 #define BIT_BASE_COLOR_TEXTURE 24          // base colour texture
 #define BIT_METALLIC_ROUGHNESS_TEXTURE 25  // metallic-roughness texture
 #define BIT_NORMAL_TEXTURE 26              // normal map
-#define BIT_EMISSION_TEXTURE 27            // emission texture
-#define BIT_SPECULAR_TEXTURE 28            // specular texture
-#define BIT_SPECULAR_COLOR_TEXTURE 29      // specular colour texture
-#define BIT_TRANSMISSION_TEXTURE 30        // transmission texture
+#define BIT_DIFFUSE_TRANSMISSION 27        // diffuse transmission
+#define BIT_DISPERSION 28                  // dispersion
 #define BIT_BACKGROUND 31                  // background radiance
 #define BIT_BACKGROUND_MAP 32              // background map
 #define BIT_BOTH_BRANCHES 33               // two impulses from one hit

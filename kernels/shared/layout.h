@@ -104,6 +104,7 @@ WHITTLE_STRUCT(DeviceLight) {
   float versineOuter;  // 1 - cos of the half angles
   float versineInner;
   uint index;     // in the scene
+  uint behind;    // 1: what it brings to the side away from the viewer, with DIFFUSE_TRANSMISSION
   uint emitters;  // of a surface light
 };
 
@@ -269,6 +270,11 @@ WHITTLE_STRUCT(Batch) {
 #define IMPULSE_D 3
 #define IMPULSE_THROUGHPUT 6
 #define IMPULSE_PLANES 9
+// With DISPERSION and two candidates, behind both: what the second has for green and for blue, direction and cone; its
+// own are for red. ENTRY_IMPULSE1 with ENTRY_ENDED1 means that it splits: into a ray for each positive channel of its
+// throughput, which carries that channel alone.
+#define SPLIT_D 0
+#define SPLIT_PLANES 3
 
 // What shade found at an entry: these flags in a byte.
 #define ENTRY_SHADOW 1u
@@ -279,6 +285,7 @@ WHITTLE_STRUCT(Batch) {
 #define ENTRY_BRANCHED 32u  // one impulse goes straight on, the other does not
 #define ENTRY_ENDED0 64u    // that impulse is not followed
 #define ENTRY_ENDED1 128u
+#define ENTRY_SPLIT1 (ENTRY_IMPULSE1 | ENTRY_ENDED1)  // both: that impulse splits
 
 // What is not followed is counted by what ended it: sums of throughputs (largest channel) in these units, each rounded
 // up, so that no order changes a sum. A throughput counts as at most ENDED_MOST; a queue of 2^24 of them fits 64 bits.

@@ -155,11 +155,12 @@ TEST(GltfFile, DamagedBinary) {
 
 TEST(GltfFile, ExtensionsThatAreOnlyUsedAreOneNote) {
   GltfBuilder b;
-  b.json["extensionsUsed"] = {"KHR_materials_dispersion", "KHR_xmp_json_ld", "KHR_materials_ior"};
+  b.json["extensionsUsed"] = {"KHR_materials_volume_scatter", "KHR_xmp_json_ld", "KHR_materials_ior"};
   b.node({{"mesh", b.triangleMesh()}});
   b.load();
   EXPECT_TRUE(b.notices.warnings.empty());
-  EXPECT_TRUE(mentions(b.notices.notes, "extensions not read: KHR_materials_dispersion, KHR_xmp_json_ld"));
+  EXPECT_TRUE(
+      mentions(b.notices.notes, "extensions not read: KHR_materials_volume_scatter, KHR_xmp_json_ld"));
   EXPECT_FALSE(mentions(b.notices.notes, "KHR_materials_ior"));
 }
 

@@ -114,29 +114,38 @@ TEST(GltfMaterial, LayersAndFacets) {
   EXPECT_EQ(plain.leastThickness, 100.0F);
   EXPECT_EQ(plain.mostThickness, 400.0F);
   EXPECT_EQ(plain.anisotropy, 0.0F);
+  EXPECT_EQ(plain.dispersion, 0.0F);
+  EXPECT_EQ(plain.diffuseTransmission, 0.0F);
+  EXPECT_EQ(plain.diffuseTransmissionColor, glm::vec3(1));
   const Json slot = {{"index", 0}, {"texCoord", 1}};
-  GltfBuilder b = textured(
-      {{"extensions",
-        {{"KHR_materials_clearcoat",
-          {{"clearcoatFactor", 0.5},
-           {"clearcoatTexture", slot},
-           {"clearcoatRoughnessFactor", 0.25},
-           {"clearcoatRoughnessTexture", slot},
-           {"clearcoatNormalTexture", {{"index", 0}, {"scale", 0.75}}}}},
-         {"KHR_materials_sheen",
-          {{"sheenColorFactor", {0.25, 0.5, 1}},
-           {"sheenColorTexture", slot},
-           {"sheenRoughnessFactor", 0.75},
-           {"sheenRoughnessTexture", slot}}},
-         {"KHR_materials_iridescence",
-          {{"iridescenceFactor", 1},
-           {"iridescenceTexture", slot},
-           {"iridescenceIor", 1.75},
-           {"iridescenceThicknessMinimum", 50},
-           {"iridescenceThicknessMaximum", 700},
-           {"iridescenceThicknessTexture", slot}}},
-         {"KHR_materials_anisotropy",
-          {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 2.5}, {"anisotropyTexture", slot}}}}}});
+  GltfBuilder b =
+      textured({{"extensions",
+                 {{"KHR_materials_clearcoat",
+                   {{"clearcoatFactor", 0.5},
+                    {"clearcoatTexture", slot},
+                    {"clearcoatRoughnessFactor", 0.25},
+                    {"clearcoatRoughnessTexture", slot},
+                    {"clearcoatNormalTexture", {{"index", 0}, {"scale", 0.75}}}}},
+                  {"KHR_materials_sheen",
+                   {{"sheenColorFactor", {0.25, 0.5, 1}},
+                    {"sheenColorTexture", slot},
+                    {"sheenRoughnessFactor", 0.75},
+                    {"sheenRoughnessTexture", slot}}},
+                  {"KHR_materials_iridescence",
+                   {{"iridescenceFactor", 1},
+                    {"iridescenceTexture", slot},
+                    {"iridescenceIor", 1.75},
+                    {"iridescenceThicknessMinimum", 50},
+                    {"iridescenceThicknessMaximum", 700},
+                    {"iridescenceThicknessTexture", slot}}},
+                  {"KHR_materials_anisotropy",
+                   {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 2.5}, {"anisotropyTexture", slot}}},
+                  {"KHR_materials_dispersion", {{"dispersion", 0.36}}},
+                  {"KHR_materials_diffuse_transmission",
+                   {{"diffuseTransmissionFactor", 0.25},
+                    {"diffuseTransmissionTexture", slot},
+                    {"diffuseTransmissionColorFactor", {1, 0.5, 0.25}},
+                    {"diffuseTransmissionColorTexture", slot}}}}}});
   const Scene scene = b.load();
   EXPECT_TRUE(b.notices.warnings.empty());
   EXPECT_FALSE(mentions(b.notices.notes, "not read"));
@@ -152,10 +161,14 @@ TEST(GltfMaterial, LayersAndFacets) {
   EXPECT_EQ(m.mostThickness, 700.0F);
   EXPECT_EQ(m.anisotropy, 0.5F);
   EXPECT_EQ(m.anisotropyRotation, 2.5F);
+  EXPECT_EQ(m.dispersion, 0.36F);
+  EXPECT_EQ(m.diffuseTransmission, 0.25F);
+  EXPECT_EQ(m.diffuseTransmissionColor, glm::vec3(1, 0.5F, 0.25F));
   for (const auto read :
        {&Material::clearcoatTexture, &Material::clearcoatRoughnessTexture, &Material::sheenColorTexture,
         &Material::sheenRoughnessTexture, &Material::iridescenceTexture,
-        &Material::iridescenceThicknessTexture, &Material::anisotropyTexture}) {
+        &Material::iridescenceThicknessTexture, &Material::anisotropyTexture,
+        &Material::diffuseTransmissionTexture, &Material::diffuseTransmissionColorTexture}) {
     EXPECT_TRUE((m.*read).used());
     EXPECT_EQ((m.*read).uvSet, 1);
   }

@@ -15,7 +15,8 @@ constexpr std::uint32_t kCapacity =
     4160;  // entries a queue has room for; of every chunk here none divides it but 1 and 32
 /// With all features.
 constexpr std::uint32_t kRayPlanes = RAY_PLANES_STRAIGHT + CONE_PLANES,
-                        kImpulsePlanes = IMPULSE_PLANES + CONE_PLANES;
+                        kImpulsePlanes = IMPULSE_PLANES + CONE_PLANES,
+                        kAllImpulsePlanes = 2 * kImpulsePlanes + 2 * (SPLIT_PLANES + CONE_PLANES);
 constexpr std::uint32_t kUntouched = 0xdeadbeefU;
 
 enum class Pattern { None, All, Random, OnlyLast };
@@ -68,7 +69,7 @@ class Compaction {
     return shadowsOf(f, count, 1);
   }
 
-  /// The next ray queue, bits of all its planes, room for two impulses of each entry.
+  /// The next ray queue, bits of all its planes, room for all rays of each entry.
   std::vector<std::uint32_t> impulse(const std::vector<std::uint32_t>& flags, std::uint32_t first,
                                      std::uint32_t count, const std::vector<std::uint32_t>& impulses,
                                      const std::vector<std::uint32_t>& rays,
@@ -78,7 +79,8 @@ class Compaction {
                  queue = bench.compute.upload("rays", rays);
     const Buffer next =
         bench.compute.upload("next", std::vector<std::uint32_t>(kRayPlanes * kCapacity, kUntouched));
-    scan(f, count, 1);
+    countAndScan(f, count, from);
+    found = bench.read<std::uint32_t>(sums_, 2)[1];
     bench.stages.run(stages::CompactImpulse{.first = first,
                                             .count = count,
                                             .capacity = kCapacity,
@@ -158,27 +160,65 @@ void checkShadow(Compaction& compaction, Pattern pattern, std::uint32_t count) {
   EXPECT_EQ(queue, expected);
 }
 
+/// Of two impulse candidates and the ways of two more colours. The second's throughput is below 0 here and
+/// there.
+std::vector<std::uint32_t> manyImpulses() {
+  auto words = distinctWords(kAllImpulsePlanes * kCapacity, 0x3f000000U);
+  for (std::uint32_t channel = 0; channel < 3; ++channel)
+    for (std::uint32_t i = channel; i < kCapacity; i += 2 + channel)
+      words[(kImpulsePlanes + IMPULSE_THROUGHPUT + channel) * kCapacity + i] |= 1U << 31;
+  return words;
+}
+
+bool isSplit(std::uint32_t flags) { return (flags & ENTRY_IMPULSE1) && (flags & ENTRY_ENDED1); }
+
+/// The planes of a ray: of the first impulse (0), of the second (1), or of the second in one colour.
+struct ExpectedRay {
+  std::uint32_t impulse = 0;
+  int channel = -1;
+};
+
+std::vector<ExpectedRay> raysOf(const std::vector<std::uint32_t>& impulses, std::uint32_t flags,
+                                std::uint32_t i) {
+  std::vector<ExpectedRay> rays;
+  if (flags & ENTRY_IMPULSE0) rays.push_back({0});
+  if ((flags & ENTRY_IMPULSE1) && !isSplit(flags)) rays.push_back({1});
+  for (std::uint32_t c = 0; c < 3 && isSplit(flags); ++c)
+    if (!(impulses[(kImpulsePlanes + IMPULSE_THROUGHPUT + c) * kCapacity + i] >> 31))
+      rays.push_back({1, static_cast<int>(c)});
+  return rays;
+}
+
 void checkImpulse(Compaction& compaction, Pattern pattern, std::uint32_t count) {
-  static const auto impulses = distinctWords(2 * kImpulsePlanes * kCapacity, 1U << 20);
+  static const auto impulses = manyImpulses();
   static const auto rays = distinctWords(kRayPlanes * kCapacity, 1U << 24);
   static const auto hits = distinctWords(HIT_PLANES_STRAIGHT * kCapacity, 1U << 23);
   const std::uint32_t fitting =
-      std::min(count, kCapacity / 2);  // two of each must fit, as the wavefront's segments see to
+      std::min(count, kCapacity / 4);  // four of each must fit, as the wavefront's segments see to
   const std::uint32_t first = kCapacity - fitting;
   const auto flags = makeFlags(pattern, fitting);
   std::vector<std::uint32_t> expected(kRayPlanes * kCapacity, kUntouched);
   std::uint32_t out = 0;
   for (std::uint32_t i = 0; i < fitting; ++i) {
-    for (std::uint32_t k = 0; k < 2; ++k) {
-      if (!(flags[i] & (k == 0 ? ENTRY_IMPULSE0 : ENTRY_IMPULSE1))) continue;
-      for (std::uint32_t plane = 0; plane < IMPULSE_PLANES;
-           ++plane)  // origin, direction, throughput: planes alike in both queues
-        expected[plane * kCapacity + out] = impulses[(k * kImpulsePlanes + plane) * kCapacity + i];
+    for (const auto& [k, channel] : raysOf(impulses, flags[i], i)) {
+      // Origin, direction, throughput: planes alike in both queues.
+      std::uint32_t way = k * kImpulsePlanes + IMPULSE_D, cone = k * kImpulsePlanes + IMPULSE_PLANES;
+      if (channel > 0) {
+        way = 2 * kImpulsePlanes + (static_cast<std::uint32_t>(channel) - 1) * (3 + CONE_PLANES);
+        cone = way + 3;
+      }
+      for (std::uint32_t a = 0; a < 3; ++a) {
+        const std::uint32_t own = k * kImpulsePlanes;
+        const bool carries = channel < 0 || channel == static_cast<int>(a);
+        expected[(RAY_O + a) * kCapacity + out] = impulses[(own + IMPULSE_O + a) * kCapacity + i];
+        expected[(RAY_D + a) * kCapacity + out] = impulses[(way + a) * kCapacity + i];
+        expected[(RAY_THROUGHPUT + a) * kCapacity + out] =
+            carries ? impulses[(own + IMPULSE_THROUGHPUT + a) * kCapacity + i] : 0;
+      }
       for (std::uint32_t plane = 0; plane < CONE_PLANES; ++plane)
-        expected[(RAY_PLANES_STRAIGHT + plane) * kCapacity + out] =
-            impulses[(k * kImpulsePlanes + IMPULSE_PLANES + plane) * kCapacity + i];
+        expected[(RAY_PLANES_STRAIGHT + plane) * kCapacity + out] = impulses[(cone + plane) * kCapacity + i];
       expected[RAY_SLOT * kCapacity + out] = rays[RAY_SLOT * kCapacity + first + i];
-      const bool straight = flags[i] & (k == 0 ? ENTRY_STRAIGHT0 : ENTRY_STRAIGHT1);
+      const bool straight = channel < 0 && (flags[i] & (k == 0 ? ENTRY_STRAIGHT0 : ENTRY_STRAIGHT1));
       const std::uint32_t steps = rays[RAY_STEPS * kCapacity + first + i];
       const bool branched = (flags[i] & ENTRY_BRANCHED) && steps >> 26 < 63;
       expected[RAY_AFTER_ORDER * kCapacity + out] = straight ? hits[HIT_ORDER * kCapacity + i] : 0;
@@ -241,7 +281,7 @@ TEST(Compact, SumsWhatEndedWhateverTheChunk) {
       EndedUnits expected{};
       for (std::uint32_t i = 0; i < count; ++i)
         for (std::uint32_t k = 0; k < 2; ++k) {
-          if (!(flags[i] & (ENTRY_ENDED0 << k))) continue;
+          if (!(flags[i] & (ENTRY_ENDED0 << k)) || (k == 1 && isSplit(flags[i]))) continue;
           const std::uint64_t millionths = rng.bits() % (std::uint64_t{1} << 20);
           const bool huge = i % 5 == 0, cutOff = rng.unit() < 0.4F;
           const float share = huge ? 3e9F : static_cast<float>(millionths) * 0x1p-20F;

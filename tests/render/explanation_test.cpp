@@ -18,33 +18,44 @@ Settings explainSettings(int bounces, int samples) {
   return onTestDevice(settings);
 }
 
+void expectSums(const Scene& scene, Lanes lanes, const std::string& name) {
+  Settings settings = explainSettings(8, 1);
+  settings.lanes = lanes;
+  RenderSession session;
+  const RenderResult picture = session.render(scene, settings, testHooks());
+  std::uint64_t primary = 0, impulse = 0, shadow = 0;
+  for (int y = 0; y < settings.height; y += 1)
+    for (int x = 0; x < settings.width; x += 1) {
+      const auto trees = session.explain(scene, settings, x, y, testHooks());
+      ASSERT_EQ(trees.size(), 1U);
+      const glm::dvec3 pixel(colorOf(picture, static_cast<std::size_t>(y * settings.width + x)));
+      ASSERT_EQ(pixel, trees[0].radiance) << name << " " << x << "," << y;
+      const glm::dvec3 sum = sumOf(trees[0]);
+      ASSERT_NEAR(glm::length(sum - pixel), 0, 2e-6 * (1 + glm::length(pixel)))
+          << name << " " << x << "," << y;
+      ++primary;
+      impulse += trees[0].rays.size() - 1;
+      for (const auto& ray : trees[0].rays) shadow += ray.shadows.size();
+    }
+  EXPECT_EQ(primary, picture.stats.rays.primary) << name;
+  EXPECT_EQ(impulse, picture.stats.rays.impulse) << name;
+  EXPECT_EQ(shadow, picture.stats.rays.shadow) << name;
+}
+
 /// Every pixel, through glass, mirrors, textures and layers, with both forms of the kernels.
 TEST(Explanation, SumsAreThePixelsAndRaysThoseThatAreCounted) {
   for (const char* name : {"cornell_box", "nested_glass", "textured"})
-    for (const Lanes lanes : {Lanes::Auto, Lanes::One}) {
-      const Scene scene = ownScene(name);
-      Settings settings = explainSettings(8, 1);
-      settings.lanes = lanes;
-      RenderSession session;
-      const RenderResult picture = session.render(scene, settings, testHooks());
-      std::uint64_t primary = 0, impulse = 0, shadow = 0;
-      for (int y = 0; y < settings.height; y += 1)
-        for (int x = 0; x < settings.width; x += 1) {
-          const auto trees = session.explain(scene, settings, x, y, testHooks());
-          ASSERT_EQ(trees.size(), 1U);
-          const glm::dvec3 pixel(colorOf(picture, static_cast<std::size_t>(y * settings.width + x)));
-          ASSERT_EQ(pixel, trees[0].radiance) << name << " " << x << "," << y;
-          const glm::dvec3 sum = sumOf(trees[0]);
-          ASSERT_NEAR(glm::length(sum - pixel), 0, 2e-6 * (1 + glm::length(pixel)))
-              << name << " " << x << "," << y;
-          ++primary;
-          impulse += trees[0].rays.size() - 1;
-          for (const auto& ray : trees[0].rays) shadow += ray.shadows.size();
-        }
-      EXPECT_EQ(primary, picture.stats.rays.primary) << name;
-      EXPECT_EQ(impulse, picture.stats.rays.impulse) << name;
-      EXPECT_EQ(shadow, picture.stats.rays.shadow) << name;
-    }
+    for (const Lanes lanes : {Lanes::Auto, Lanes::One}) expectSums(ownScene(name), lanes, name);
+}
+
+/// One ray becomes three, and a light has two turns.
+TEST(Explanation, SumsAreThePixelsWhereColoursSplitAndLightComesThrough) {
+  Scene scene = ownScene("nested_glass");
+  for (Material& m : scene.materials) {
+    m.dispersion = 2;
+    m.diffuseTransmission = 0.4F;
+  }
+  expectSums(scene, Lanes::Auto, "split");
 }
 
 TEST(Explanation, SamplesMeanThePixel) {

@@ -1,62 +1,7 @@
 // Scattering at surfels: the finite part (Lambert and the glTF microfacet lobe) for direct light, and the impulses
 // (mirror reflection, refraction, straight transmission); then the layers over them. Formulas:
 // host/reference/README.md.
-#include "lib/surface/fresnel.cl"
-#include "lib/surface/surfel.cl"
-
-INLINE Mask isSmooth(const RenderConstants* constants, const Surfel* s) {
-  return s->roughness < constants->mirrorRoughness;
-}
-
-#if HAS(GLOSS)
-/// Rough, and reflects whatever is around it.
-INLINE Mask isGlossy(const RenderConstants* constants, const Surfel* s) {
-  return !isSmooth(constants, s) & ((Natural)(constants->glossy) == 1u);
-}
-#endif
-
-/// Ratio of indices n_t/n_i for light arriving from the viewer's side.
-INLINE Real interfaceEta(const Surfel* s) {
-  const Mask outside = s->front | ((s->flags & MATERIAL_VOLUME) == 0);
-  return outside ? s->ior : 1.0f / s->ior;
-}
-
-INLINE Real3 schlick(Real3 f0, Real3 f90, Real cosine) {
-  return add3(f0, scale3(schlickWeight(cosine), sub3(f90, f0)));
-}
-
-/// Dielectric reflectance seen along w_o, without a film; total: set at total reflection.
-INLINE Real3 clearReflectance(const Surfel* s, Real cosine, Mask* total) {
-  const Real ratio = (s->ior - 1.0f) / (s->ior + 1.0f);
-  const Real r0 = ratio * ratio;
-  const Mask opaque = (s->ior == 0.0f) | (r0 >= 1.0f);
-  const Real r = fresnelDielectric(cosine, interfaceEta(s), total);
-  *total = *total & !opaque;
-  const Real3 reflectance = choose3(opaque, s->specularF0, real3(r, r, r));
-#if HAS(SPECULAR_EXTENSION)
-  // Untinted: the bits of the kernels without this extension.
-  const Mask plain = (s->specularF90 == 1.0f) & (s->specularF0.x == r0) & (s->specularF0.y == r0) &
-                     (s->specularF0.z == r0);
-  const Real3 f90 = real3(s->specularF90, s->specularF90, s->specularF90);
-  // Where nothing enters, r is 1 at every angle and gives no rise.
-  const Real rise = opaque ? schlickWeight(cosine) : (r - r0) / (1.0f - r0);
-  const Real3 tinted = add3(s->specularF0, scale3(rise, sub3(f90, s->specularF0)));
-  // Dense dielectrics dip below R0.
-  return choose3(plain | *total, reflectance, real3(clampUnit(tinted.x), clampUnit(tinted.y), clampUnit(tinted.z)));
-#else
-  return reflectance;
-#endif
-}
-
-/// Dielectric reflectance seen along w_o; total: set at total reflection.
-INLINE Real3 dielectricReflectance(const Surfel* s, Real cosine, Mask* total) {
-  const Real3 r = clearReflectance(s, cosine, total);
-#if HAS(IRIDESCENCE)
-  return choose3(*total, r, belowFilm(&s->film, cosine, s->specularF0, r));
-#else
-  return r;
-#endif
-}
+#include "lib/surface/reflectance.cl"
 
 INLINE Facets facetsOf(const Surfel* s) {
   Facets facets = facetsAbout(s->n, s->roughness);
@@ -65,24 +10,6 @@ INLINE Facets facetsOf(const Surfel* s) {
   facets.along = facets.alpha + (1.0f - facets.alpha) * s->stretch;
 #endif
   return facets;
-}
-
-/// Reflectance of rough dielectrics and of metals at that angle to a facet.
-INLINE Real3 facetReflectance(const Surfel* s, Real cosine) {
-  const Real3 r = schlick(s->specularF0, real3(s->specularF90, s->specularF90, s->specularF90), cosine);
-#if HAS(IRIDESCENCE)
-  return belowFilm(&s->film, cosine, s->specularF0, r);
-#else
-  return r;
-#endif
-}
-INLINE Real3 metalReflectance(const Surfel* s, Real cosine) {
-  const Real3 r = schlick(s->baseColor, same3((float3)(1.0f)), cosine);
-#if HAS(IRIDESCENCE)
-  return belowFilm(&s->film, cosine, s->baseColor, r);
-#else
-  return r;
-#endif
 }
 
 /// What of light that goes one way or the other the layers over the surface leave to it.
@@ -97,12 +24,23 @@ INLINE Real belowLayers(const Surfel* s, Real cosO, Real cosI) {
   return kept;
 }
 
+/// What a smooth surface does not reflect of light seen at that angle.
+INLINE Real3 enteringShare(const Surfel* s, Real cosine) {
+  Mask3 total;
+  const Real3 r = dielectricReflectance(s, cosine < 1.0f ? cosine : (Real)(1.0f), &total);
+  return real3(1.0f - r.x, 1.0f - r.y, 1.0f - r.z);
+}
+
 /// f(w_i, w_o), 1/sr, without impulses and layers; both directions on the side of n. light: LIGHT_…, since what glossy
 /// surfaces reflect of surfaces that glow and of the sky is in their impulses.
 INLINE Real3 baseScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i, uint light) {
   const Real cosO = dot3(s->n, w_o);
   const Real dielectric = 1.0f - s->metallic;
-  const Real3 diffuse = scale3(1.0f - s->transmission, scale3((Real)(1.0f / PI), s->baseColor));
+  Real matte = 1.0f - s->transmission;
+#if HAS(DIFFUSE_TRANSMISSION)
+  matte *= 1.0f - s->diffuseTransmission;
+#endif
+  const Real3 diffuse = scale3(matte, scale3((Real)(1.0f / PI), s->baseColor));
   const Mask smooth = isSmooth(constants, s);
   Real3 f = scale3(dielectric, diffuse);
 #if HAS(MICROFACET)
@@ -122,14 +60,25 @@ INLINE Real3 baseScattering(const RenderConstants* constants, const Surfel* s, R
 #endif
   }
 #endif
-  if (some(smooth)) {
-    Mask total;
-    const Real3 r = dielectricReflectance(s, cosO < 1.0f ? cosO : (Real)(1.0f), &total);
-    const Real3 passing = real3(dielectric * (1.0f - r.x), dielectric * (1.0f - r.y), dielectric * (1.0f - r.z));
-    f = choose3(smooth, mul3(passing, diffuse), f);
-  }
+  if (some(smooth)) f = choose3(smooth, mul3(scale3(dielectric, enteringShare(s, cosO)), diffuse), f);
   return f;
 }
+
+#if HAS(DIFFUSE_TRANSMISSION)
+/// The same of light from the other side, with the layers above: Lambert's part. On its way it is reflected as light
+/// from where its mirror image is, on the side of n.
+INLINE Real3 transmittedScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i) {
+  const Real cosO = dot3(s->n, w_o), cosI = -dot3(s->n, w_i);
+  const Real3 image = add3(w_i, scale3(2.0f * cosI, s->n));
+  const Real3 fresnel = facetReflectance(s, clampUnit(dot3(w_o, normalize3(add3(image, w_o)))));
+  const Real below = 1.0f - largestOfThree(fresnel.x, fresnel.y, fresnel.z);
+  const Mask smooth = isSmooth(constants, s);
+  Real3 kept = real3(below, below, below);
+  if (some(smooth)) kept = choose3(smooth, enteringShare(s, cosO), kept);
+  const Real share = (1.0f - s->metallic) * (1.0f - s->transmission) * s->diffuseTransmission * (1.0f / PI);
+  return scale3(belowLayers(s, cosO, cosI) * share, mul3(kept, s->diffuseTransmissionColor));
+}
+#endif
 
 /// The same with the layers above.
 INLINE Real3 finiteScattering(const RenderConstants* constants, const Surfel* s, Real3 w_o, Real3 w_i, uint light) {
@@ -164,12 +113,13 @@ INLINE Real3 baseAmbient(const RenderConstants* constants, const Surfel* s, Real
   const Mask reflects = smooth;
 #endif
   Real3 share = scale3(reflects ? matte : matte + s->metallic, s->baseColor);
-  if (some(reflects)) {
-    const Real cosO = dot3(s->n, w_o);
-    Mask total;
-    const Real3 r = dielectricReflectance(s, cosO < 1.0f ? cosO : (Real)(1.0f), &total);
-    share = choose3(reflects, mul3(real3(1.0f - r.x, 1.0f - r.y, 1.0f - r.z), share), share);
-  }
+#if HAS(DIFFUSE_TRANSMISSION)
+  const Real through = s->diffuseTransmission;
+  const Real3 both = add3(scale3(1.0f - through, s->baseColor), scale3(through, s->diffuseTransmissionColor));
+  const Real3 metal = scale3(reflects ? (Real)(0.0f) : s->metallic, s->baseColor);
+  share = choose3(through > 0.0f, add3(scale3(matte, both), metal), share);
+#endif
+  if (some(reflects)) share = choose3(reflects, mul3(enteringShare(s, dot3(s->n, w_o)), share), share);
   return share;
 }
 
@@ -198,14 +148,32 @@ typedef struct {
   Real3 w_i;
   Real3 magnitude;
   Mask straight;  // goes on as the ray came; known with STRAIGHT
+#if HAS(DISPERSION)
+  Mask splits;    // each colour by itself: w_i is the way of red
+  Real3 ways[2];  // of green and blue
+  Real eta;       // of w_i through the surface: n_t/n_i
+#endif
 } Impulse;
+
+INLINE Impulse noImpulse(Real3 w_i) {
+  Impulse impulse;
+  impulse.w_i = w_i;
+  impulse.magnitude = same3((float3)(0.0f));
+  impulse.straight = (Mask)(0);
+#if HAS(DISPERSION)
+  impulse.splits = (Mask)(0);
+  impulse.ways[0] = impulse.ways[1] = w_i;
+  impulse.eta = (Real)(1.0f);
+#endif
+  return impulse;
+}
 
 #if HAS(MIRROR) || HAS(REFRACTION)
 /// n: of the surface, or of a microfacet.
 INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, Real3 n, Real3 w_o, Real cosine,
-                             Real3 reflectance, Mask total) {
-  Impulse impulse;
-  const Mask inside = total & ((s->flags & MATERIAL_VOLUME) != 0) & (s->transmission > 0.0f);
+                             Real3 reflectance, Mask3 total) {
+  Impulse impulse = noImpulse(w_o);
+  const Mask inside = ((s->flags & MATERIAL_VOLUME) != 0) & (s->transmission > 0.0f);
   const Real3 aboutN = sub3(scale3(2.0f * cosine, n), w_o);
   const Real3 aboutG = sub3(scale3(2.0f * dot3(s->n_g, w_o), s->n_g), w_o);
   impulse.w_i = normalize3(choose3(dot3(s->n_g, aboutN) > 0.0f, aboutN, aboutG));
@@ -213,7 +181,7 @@ INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, 
 #if HAS(METAL)
   magnitude = add3(magnitude, scale3(s->metallic, metalReflectance(s, cosine)));
 #endif
-  Mask reflects = isSmooth(constants, s) | inside;
+  Mask reflects = isSmooth(constants, s);
 #if HAS(GLOSS)
   const Mask glossy = isGlossy(constants, s);
   const Facets facets = facetsOf(s);
@@ -221,8 +189,8 @@ INLINE Impulse mirrorImpulse(const RenderConstants* constants, const Surfel* s, 
   magnitude = choose3(glossy, scale3(reflectionWeight(&facets, s->n_g, w_o, aboutN), magnitude), magnitude);
   reflects = reflects | glossy;
 #endif
-  impulse.magnitude = choose3(reflects, scale3(s->alpha, magnitude), same3((float3)(0.0f)));
-  impulse.straight = (Mask)(0);
+  const Mask3 reflected = {reflects | (total.x & inside), reflects | (total.y & inside), reflects | (total.z & inside)};
+  impulse.magnitude = chooseEach3(reflected, scale3(s->alpha, magnitude), impulse.magnitude);
   return impulse;
 }
 #endif
@@ -238,36 +206,69 @@ INLINE Real3 refracted(Real3 n, Real3 w_o, Real eta) {
   const Real3 w_t = normalize3(sub3(scale3(cosine / eta - sqrt(1.0f - sin2T), n), over3(w_o, eta)));
   return choose3(sin2T < 1.0f, w_t, same3((float3)(0.0f)));
 }
+
+/// Where light goes through the surface, or through its facet of normal n: not behind it where it is stopped. kept:
+/// the share that comes out behind a glossy one, Smith's G1 of the way there.
+INLINE Real3 bentWay(const RenderConstants* constants, const Surfel* s, Real3 n, Real3 w_o, Real eta, Real* kept) {
+  const Real3 w_t = refracted(n, w_o, eta), aboutG = refracted(s->n_g, w_o, eta);
+  const Mask leaves = dot3(s->n_g, w_t) < 0.0f;
+  *kept = (Real)(1.0f);
+#if HAS(GLOSS)
+  const Mask glossy = isGlossy(constants, s);
+  const Facets facets = facetsOf(s);
+  const Real visible = dot3(s->n, w_t) < 0.0f ? 2.0f / (1.0f + smithRoot(&facets, w_t)) : (Real)(0.0f);
+  *kept = glossy ? visible : *kept;
+  return choose3(leaves | glossy, w_t, aboutG);
+#else
+  return choose3(leaves, w_t, aboutG);
+#endif
+}
+
+#if HAS(DISPERSION)
+/// The same of each colour, where they split; `magnitude`: of the impulse, of all of them.
+INLINE void splitImpulse(const RenderConstants* constants, const Surfel* s, Real3 n, Real3 w_o, Real3 magnitude,
+                         Impulse* impulse) {
+  const Mask splits = impulse->splits;
+  Real3 ways[3];
+  Real kept[3], eta = (Real)(1.0f);
+  for (uint c = 0; c < 3; ++c) {
+    const Real own = interfaceEta(s, channelIndex(s->ior, s->halfSpread, c));
+    ways[c] = bentWay(constants, s, n, w_o, own, kept + c);
+    kept[c] = dot3(s->n_g, ways[c]) < 0.0f ? kept[c] : (Real)(0.0f);
+    eta = c == 0 ? own : eta;
+  }
+  impulse->w_i = choose3(splits, ways[0], impulse->w_i);
+  impulse->ways[0] = ways[1], impulse->ways[1] = ways[2];
+  impulse->eta = splits ? eta : impulse->eta;
+  impulse->magnitude = choose3(splits, mul3(real3(kept[0], kept[1], kept[2]), magnitude), impulse->magnitude);
+}
+#endif
 #endif
 
 INLINE Impulse transmissionImpulse(const RenderConstants* constants, const Surfel* s, Real3 n, Real3 w_o,
                                    Real3 reflectance) {
-  Impulse impulse;
+  Impulse impulse = noImpulse(minus3(w_o));
   const Real3 zero = same3((float3)(0.0f));
-  impulse.w_i = minus3(w_o);
   impulse.straight = s->transmission > 0.0f;
   const Real passing = s->alpha * (1.0f - s->metallic) * s->transmission;
   impulse.magnitude = mul3(scale3(passing, s->baseColor),
                            real3(1.0f - reflectance.x, 1.0f - reflectance.y, 1.0f - reflectance.z));
 #if HAS(REFRACTION)
-  const Real eta = interfaceEta(s);
+  const Real eta = interfaceEta(s, s->ior);
   const Mask volume = (s->flags & MATERIAL_VOLUME) != 0;
   const Mask bends = volume & (s->ior != 0.0f) & (eta != 1.0f);
-  Real3 w_t = refracted(n, w_o, eta);
-#if HAS(GLOSS)
-  // Behind a microfacet; what does not come out behind the surface is lost. Smith's G1 of the way there.
-  const Mask glossy = isGlossy(constants, s);
-  w_t = choose3((dot3(s->n_g, w_t) < 0.0f) | glossy, w_t, refracted(s->n_g, w_o, eta));
-  const Facets facets = facetsOf(s);
-  const Real kept = dot3(s->n, w_t) < 0.0f ? 2.0f / (1.0f + smithRoot(&facets, w_t)) : (Real)(0.0f);
-  impulse.magnitude = choose3(glossy & bends, scale3(kept, impulse.magnitude), impulse.magnitude);
-#else
-  w_t = choose3(dot3(s->n_g, w_t) < 0.0f, w_t, refracted(s->n_g, w_o, eta));
-#endif
+  Real kept;
+  const Real3 w_t = bentWay(constants, s, n, w_o, eta, &kept), whole = impulse.magnitude;
+  impulse.magnitude = choose3(bends, scale3(kept, whole), whole);
   impulse.w_i = choose3(bends, w_t, impulse.w_i);
   impulse.straight = impulse.straight & !bends;
   const Mask stopped = (volume & (s->ior == 0.0f)) | (bends & !(dot3(s->n_g, w_t) < 0.0f));
   impulse.magnitude = choose3(stopped, zero, impulse.magnitude);
+#if HAS(DISPERSION)
+  impulse.eta = eta;
+  impulse.splits = bends & (s->halfSpread > 0.0f);
+  if (some(impulse.splits)) splitImpulse(constants, s, n, w_o, whole, &impulse);
+#endif
 #endif
   impulse.w_i = choose3(s->transmission > 0.0f, impulse.w_i, minus3(w_o));
   impulse.magnitude = choose3(s->transmission > 0.0f, impulse.magnitude, zero);
@@ -296,6 +297,9 @@ INLINE void addLayers(const RenderConstants* constants, const Surfel* s, Real3 w
   transmission->w_i = choose3(apart, reflection->w_i, transmission->w_i);
   transmission->magnitude = choose3(apart, reflection->magnitude, transmission->magnitude);
   transmission->straight = transmission->straight & !apart;
+#if HAS(DISPERSION)
+  transmission->splits = transmission->splits & !apart;
+#endif
   reflection->w_i = choose3((carried > 0.0f) & (apart | !both), w_i, reflection->w_i);
   reflection->magnitude = choose3(apart, coat, add3(reflection->magnitude, coat));
 #endif
@@ -306,10 +310,8 @@ INLINE void addLayers(const RenderConstants* constants, const Surfel* s, Real3 w
 /// `facets`: with GLOSS which of the microfacets that w_o sees.
 INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 w_o, Square facets, Impulse* first,
                        Impulse* second) {
-  const Real3 zero = same3((float3)(0.0f)), back = minus3(w_o);
-  first->magnitude = second->magnitude = zero;
-  first->w_i = second->w_i = back;
-  first->straight = second->straight = (Mask)(0);
+  const Real3 back = minus3(w_o);
+  *first = *second = noImpulse(back);
 #if HAS(IMPULSES)
 #if HAS(MIRROR) || HAS(REFRACTION) || HAS(TRANSMISSION)
   Real3 n = s->n;
@@ -323,13 +325,13 @@ INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 
   if (some(asked)) {
     const Real along = dot3(n, w_o);
     const Real cosine = along < 1.0f ? along : (Real)(1.0f);
-    Mask total;
+    Mask3 total;
     Real3 reflectance = dielectricReflectance(s, cosine, &total);
 #if HAS(GLOSS)
     // As its highlight has it (finiteScattering).
     const Mask opaque = glossy & !(s->transmission > 0.0f);
     reflectance = choose3(opaque, facetReflectance(s, cosine), reflectance);
-    total = total & !opaque;
+    total.x = total.x & !opaque, total.y = total.y & !opaque, total.z = total.z & !opaque;
 #endif
 #if HAS(MIRROR) || HAS(REFRACTION)
     *first = mirrorImpulse(constants, s, n, w_o, cosine, reflectance, total);
@@ -357,6 +359,9 @@ INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 
     second->magnitude = choose3(thin & !bends, reflection.magnitude, second->magnitude);
     first->straight = thin | reflection.straight;
     second->straight = second->straight & !thin;
+#if HAS(DISPERSION)
+    second->splits = second->splits & (bends | !thin);
+#endif
   }
 #endif
 #if HAS(UNLIT)
@@ -364,7 +369,7 @@ INLINE void impulsesAt(const RenderConstants* constants, const Surfel* s, Real3 
   first->w_i = choose3(unlit, back, first->w_i);
   first->magnitude = choose3(unlit, straight3, first->magnitude);
   second->w_i = choose3(unlit, back, second->w_i);
-  second->magnitude = choose3(unlit, zero, second->magnitude);
+  second->magnitude = choose3(unlit, same3((float3)(0.0f)), second->magnitude);
   first->straight = first->straight | unlit;
 #endif
 #endif

@@ -1,4 +1,4 @@
-// What a material says of fibres and of a film over the surface, textures included.
+// What a material says of fibres and of a film over the surface, and of light from behind it, textures included.
 #include "lib/surface/material.cl"
 #include "lib/surface/sheen.cl"
 #include "lib/surface/thin_film.cl"
@@ -16,6 +16,21 @@ INLINE Sheen sheenAt(const SceneView* scene, const TrianglePoint* at) {
   sheen.roughness = clampUnit(sheen.roughness);
   sheen.largest = largestOfThree(sheen.color.x, sheen.color.y, sheen.color.z);
   return sheen;
+}
+#endif
+
+#if HAS(DIFFUSE_TRANSMISSION)
+/// The share of Lambert's part that leaves on the other side, and its colour.
+INLINE Real diffuseTransmissionAt(const SceneView* scene, const TrianglePoint* at, Real3* color) {
+  Real share = MATERIAL(at, diffuseTransmission);
+  *color = MATERIAL3(at, diffuseTransmissionColor);
+#if HAS(TEXTURES)
+  const Rgba part = TEXTURE_AT(scene, at, diffuseTransmissionTexture),
+             tint = TEXTURE_AT(scene, at, diffuseTransmissionColorTexture);
+  share *= part.c[3];
+  *color = mul3(*color, real3(tint.c[0], tint.c[1], tint.c[2]));
+#endif
+  return clampUnit(share);
 }
 #endif
 

@@ -15,7 +15,7 @@ INLINE void metallicRoughnessAt(const SceneView* scene, const TrianglePoint* at,
 
 INLINE Real transmissionAt(const SceneView* scene, const TrianglePoint* at) {
   Real transmission = MATERIAL(at, transmission);
-#if HAS(TEXTURES) && HAS(TRANSMISSION_TEXTURE)
+#if HAS(TEXTURES) && HAS(TRANSMISSION)
   const Rgba texel = TEXTURE_AT(scene, at, transmissionTexture);
   transmission *= texel.c[0];
 #endif

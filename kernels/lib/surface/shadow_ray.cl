@@ -2,6 +2,19 @@
 // between coarse triangles they start on that surface (liftSurfel in surfel.cl).
 #include "lib/surface/ray_offset.cl"
 
+#if HAS(DIFFUSE_TRANSMISSION)
+/// The place as light from behind finds it.
+INLINE Surfel turnedOver(const Surfel* s) {
+  Surfel other = *s;
+  other.n = minus3(s->n);
+  other.n_g = minus3(s->n_g);
+#if HAS(TERMINATOR)
+  other.lift = s->liftBehind;
+#endif
+  return other;
+}
+#endif
+
 typedef struct {
   Real3 o, d;
   Real length;

@@ -1,6 +1,7 @@
 // The surfel of a hit: what shading needs to know of the surface, evaluated from vertices, material and textures.
 // Conventions: host/reference/README.md.
 #include "lib/surface/clearcoat.cl"
+#include "lib/surface/dispersion.cl"
 #include "lib/surface/footprint.cl"
 #include "lib/surface/layers.cl"
 #include "lib/surface/material.cl"
@@ -35,9 +36,17 @@ typedef struct {
   Real3 grain;   // unit, across n: the direction along which facets are rougher; 0: there is none
   Real stretch;  // by how much, in [0, 1]
 #endif
+#if HAS(DISPERSION)
+  Real halfSpread;  // from the index of green to those of red and blue; 0: they are one
+#endif
+#if HAS(DIFFUSE_TRANSMISSION)
+  Real diffuseTransmission;  // the share of Lambert's part that leaves on the other side
+  Real3 diffuseTransmissionColor;
+#endif
 #if HAS(TERMINATOR)
-  Mask curved;  // the normals mean another surface than the triangle's plane
-  Real3 lift;   // from the position to that surface, m
+  Mask curved;       // the normals mean another surface than the triangle's plane
+  Real3 lift;        // from the position to that surface, m
+  Real3 liftBehind;  // the same from the other side; known with DIFFUSE_TRANSMISSION
 #endif
 #ifdef TEXTURE_FOOTPRINTS
   Real bend;  // half the divergence of the vertex normals, seen from the viewer's side, 1/m
@@ -114,6 +123,12 @@ INLINE Real3 liftTo(Real3 corner, Real3 n, Real3 p) {
   return scale3(height > 0.0f ? height : (Real)(0.0f), n);
 }
 
+/// To the curved surface from p, on the side of the normals (1) or on the other (-1).
+INLINE Real3 liftOnSide(const TrianglePoint* at, const CornerNormals* corners, Real side, Real3 p) {
+  return blend(at, liftTo(at->p0, scale3(side, corners->a), p), liftTo(at->p1, scale3(side, corners->b), p),
+               liftTo(at->p2, scale3(side, corners->c), p));
+}
+
 /// The curved surface that the corners' normals mean bulges over a flat triangle, which would throw a shadow on it:
 /// from there shadow rays start (Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021). Only where a
 /// normal is off the plane's by as much as shows, and none by so much that it means an edge
@@ -123,10 +138,10 @@ INLINE void liftSurfel(const TrianglePoint* at, const CornerNormals* corners, Re
   const Real ab = a < b ? a : b, least = ab < c ? ab : c;
   s->curved = !corners->missing & (least < COARSE_COSINE) & (least > EDGE_COSINE);
   const Real side = s->front ? (Real)(1.0f) : (Real)(-1.0f);
-  const Real3 lift = blend(at, liftTo(at->p0, scale3(side, corners->a), s->position),
-                           liftTo(at->p1, scale3(side, corners->b), s->position),
-                           liftTo(at->p2, scale3(side, corners->c), s->position));
-  s->lift = choose3(s->curved, lift, same3((float3)(0.0f)));
+  s->lift = choose3(s->curved, liftOnSide(at, corners, side, s->position), same3((float3)(0.0f)));
+#if HAS(DIFFUSE_TRANSMISSION)
+  s->liftBehind = choose3(s->curved, liftOnSide(at, corners, -side, s->position), same3((float3)(0.0f)));
+#endif
 }
 #endif
 
@@ -190,24 +205,30 @@ INLINE Real3 mappedNormal(const SceneView* scene, const TrianglePoint* at, Real3
 }
 #endif
 
+INLINE Real normalReflectance(Real ior) {
+  const Real ratio = (ior - 1.0f) / (ior + 1.0f);
+  return ior == 0.0f ? (Real)(1.0f) : ratio * ratio;
+}
+
 /// Reflectance at normal and grazing incidence of the dielectric part (KHR_materials_ior, KHR_materials_specular).
 INLINE void specularReflectance(const SceneView* scene, const TrianglePoint* at, Surfel* s) {
-  const Real ratio = (s->ior - 1.0f) / (s->ior + 1.0f);
-  const Real r0 = s->ior == 0.0f ? (Real)(1.0f) : ratio * ratio;
+  const Real r0 = normalReflectance(s->ior);
   s->specularF0 = real3(r0, r0, r0);
+#if HAS(DISPERSION)
+  s->specularF0.x = normalReflectance(channelIndex(s->ior, s->halfSpread, 0));
+  s->specularF0.z = normalReflectance(channelIndex(s->ior, s->halfSpread, 2));
+#endif
   s->specularF90 = (Real)(1.0f);
 #if HAS(SPECULAR_EXTENSION)
   Real strength = MATERIAL(at, specular);
   Real3 tint = MATERIAL3(at, specularColor);
-#if HAS(TEXTURES) && HAS(SPECULAR_TEXTURE)
+#if HAS(TEXTURES)
   const Rgba specular = TEXTURE_AT(scene, at, specularTexture);
   strength *= specular.c[3];
-#endif
-#if HAS(TEXTURES) && HAS(SPECULAR_COLOR_TEXTURE)
   const Rgba specularColor = TEXTURE_AT(scene, at, specularColorTexture);
   tint = mul3(tint, real3(specularColor.c[0], specularColor.c[1], specularColor.c[2]));
 #endif
-  const Real3 f0 = scale3(r0, tint), one = same3((float3)(1.0f));
+  const Real3 f0 = mul3(s->specularF0, tint), one = same3((float3)(1.0f));
   s->specularF0 = scale3(strength,
                          real3(f0.x < 1.0f ? f0.x : one.x, f0.y < 1.0f ? f0.y : one.y, f0.z < 1.0f ? f0.z : one.z));
   s->specularF90 = strength;
@@ -227,7 +248,13 @@ INLINE void materialAt(const SceneView* scene, const TrianglePoint* at, Surfel* 
   s->transmission = transmissionAt(scene, at);
   s->ior = MATERIAL(at, ior);
   s->sigma_a = MATERIAL3(at, sigma_a);
+#if HAS(DISPERSION)
+  s->halfSpread = halfSpreadAt(at, s->flags, s->transmission, s->ior);
+#endif
   specularReflectance(scene, at, s);
+#if HAS(DIFFUSE_TRANSMISSION)
+  s->diffuseTransmission = diffuseTransmissionAt(scene, at, &s->diffuseTransmissionColor);
+#endif
 #if HAS(SHEEN)
   s->sheen = sheenAt(scene, at);
 #endif
@@ -237,7 +264,7 @@ INLINE void materialAt(const SceneView* scene, const TrianglePoint* at, Surfel* 
   s->emission = same3((float3)(0.0f));
 #if HAS(EMISSION)
   Real3 emission = MATERIAL3(at, emission);
-#if HAS(TEXTURES) && HAS(EMISSION_TEXTURE)
+#if HAS(TEXTURES)
   const Rgba glow = TEXTURE_AT(scene, at, emissionTexture);
   emission = mul3(emission, real3(glow.c[0], glow.c[1], glow.c[2]));
 #endif
@@ -325,7 +352,7 @@ INLINE Surfel surfelAt(const SceneView* scene, Natural triangleIndex, Real3 o, R
   Real3 n = n_g;
 #if HAS(TERMINATOR)
   s.curved = (Mask)(0);
-  s.lift = same3((float3)(0.0f));
+  s.lift = s.liftBehind = same3((float3)(0.0f));
 #endif
 #ifdef TEXTURE_FOOTPRINTS
   s.bend = (Real)(0.0f);

@@ -20,7 +20,6 @@ constexpr std::array kLooks{
     Look{"KHR_materials_diffuse_transmission", "leaves and paper let no light through"},
     Look{"KHR_materials_dispersion", "glass does not split colours"},
     Look{"KHR_materials_volume_scatter", "nothing is scattered inside solids"},
-    Look{"KHR_animation_pointer", "only nodes and weights are animated"},
 };
 
 /// What a tool makes Whittle's of. Textures of such a format may have another image beside it.

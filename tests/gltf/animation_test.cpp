@@ -14,6 +14,7 @@ using gltf::Blend;
 using gltf::Interpolation;
 using gltf::Keyframes;
 using gltf::valueAt;
+using test::at;
 using test::corner;
 using test::expectNear;
 using test::GltfBuilder;
@@ -94,12 +95,6 @@ void animate(GltfBuilder& b, int node, const std::string& path, const char* type
   animation["channels"].push_back(
       {{"sampler", animation["samplers"].size()}, {"target", {{"node", node}, {"path", path}}}});
   animation["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", interpolation}});
-}
-
-LoadOptions at(double seconds) {
-  LoadOptions options;
-  options.time = seconds;
-  return options;
 }
 
 /// What a channel does not move stays as the file has it; children go along.

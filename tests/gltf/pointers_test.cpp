@@ -1,97 +1,23 @@
-// KHR_animation_pointer: each property that is drawn half way between two keyframes, open files that follow,
-// and pointers that are wrong.
+// KHR_animation_pointer: each property that is drawn half way between two keyframes, and open files that
+// follow.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "gltf/builder.h"
+#include "gltf/pointers.h"
 
 namespace whittle {
 namespace {
 
+using test::animate;
+using test::at;
+using test::channel;
 using test::corner;
 using test::expectNear;
+using test::gallery;
 using test::GltfBuilder;
 using test::Json;
-using test::mentions;
-
-/// A channel for `pointer` whose sampler has these values at 0, 2, 4, … seconds.
-void channel(GltfBuilder& b, const std::string& pointer, int output, std::size_t keys,
-             const char* interpolation) {
-  std::vector<float> times(keys);
-  for (std::size_t i = 0; i < keys; ++i) times[i] = 2 * static_cast<float>(i);
-  const int input = b.floats("SCALAR", 1, times);
-  b.json["accessors"][input]["max"] = {times.back()};
-  if (!b.json.contains("animations"))
-    b.push("animations", {{"name", "show"}, {"channels", Json::array()}, {"samplers", Json::array()}});
-  Json& animation = b.json["animations"].back();
-  animation["channels"].push_back(
-      {{"sampler", animation["samplers"].size()},
-       {"target",
-        {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
-  animation["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", interpolation}});
-}
-
-void animate(GltfBuilder& b, const std::string& pointer, int components, const std::vector<float>& values,
-             const char* interpolation = "LINEAR") {
-  static const char* const kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-  const std::size_t elements = values.size() / static_cast<std::size_t>(components);
-  channel(b, pointer, b.floats(kTypes[components - 1], components, values),
-          interpolation == std::string("CUBICSPLINE") ? elements / 3 : elements, interpolation);
-}
-
-/// Shown or not, at 0, 2, 4, … seconds.
-void showAtTimes(GltfBuilder& b, int node, const std::vector<std::uint8_t>& shown) {
-  b.json["nodes"][node]["extensions"]["KHR_node_visibility"]["visible"] = shown[0] != 0;
-  const int output = b.accessor(b.view(shown), "SCALAR", test::kUbyte, shown.size());
-  channel(b, "/nodes/" + std::to_string(node) + "/extensions/KHR_node_visibility/visible", output,
-          shown.size(), "STEP");
-}
-
-LoadOptions at(double seconds) {
-  LoadOptions options;
-  options.time = seconds;
-  return options;
-}
-
-/// A textured triangle with a material of every extension, two cameras and a spot light.
-GltfBuilder gallery() {
-  GltfBuilder b;
-  b.json["extensionsRequired"] = {"KHR_animation_pointer"};
-  b.json["extensions"]["KHR_lights_punctual"]["lights"] =
-      Json::array({{{"type", "spot"}, {"range", 9}, {"spot", Json::object()}}});
-  const std::string png = test::pngBytes();
-  b.push("images", {{"bufferView", b.view(std::vector<char>(png.begin(), png.end()))}});
-  b.push("textures", {{"source", 0}});
-  const Json texture{{"index", 0}, {"extensions", {{"KHR_texture_transform", Json::object()}}}};
-  b.material({{"alphaMode", "MASK"},
-              {"pbrMetallicRoughness", {{"baseColorTexture", texture}}},
-              {"normalTexture", texture},
-              {"occlusionTexture", texture},
-              {"emissiveFactor", {1, 1, 1}},
-              {"extensions",
-               {{"KHR_materials_emissive_strength", Json::object()},
-                {"KHR_materials_ior", Json::object()},
-                {"KHR_materials_transmission", Json::object()},
-                {"KHR_materials_volume", {{"attenuationDistance", 1}}},
-                {"KHR_materials_specular", Json::object()},
-                {"KHR_materials_clearcoat", {{"clearcoatNormalTexture", texture}}},
-                {"KHR_materials_sheen", Json::object()},
-                {"KHR_materials_iridescence", Json::object()},
-                {"KHR_materials_anisotropy", Json::object()}}}});
-  b.node({{"mesh", b.triangleMesh({{"material", 0},
-                                   {"attributes",
-                                    {{"TEXCOORD_0", b.vec2({0, 0, 1, 0, 0, 1})},
-                                     {"NORMAL", b.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1})}}}})}});
-  b.push("cameras",
-         {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}, {"aspectRatio", 1}}}});
-  b.push("cameras",
-         {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 1}, {"zfar", 2}}}});
-  b.node({{"camera", 0}});
-  b.node({{"camera", 1}});
-  b.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  return b;
-}
+using test::showAtTimes;
 
 constexpr const char* kMaterial = "/materials/0/";
 constexpr const char* kLight = "/extensions/KHR_lights_punctual/lights/0/";
@@ -337,71 +263,6 @@ TEST(GltfPointers, NodesComeAndGo) {
     EXPECT_EQ(scene.positions, anew.positions) << seconds;
     EXPECT_EQ(scene.uv0, anew.uv0) << seconds;
   }
-}
-
-TEST(GltfPointers, WhatIsNotThereIsSaidOnceByName) {
-  const auto warned = [](const std::vector<std::string>& pointers) {
-    GltfBuilder b = gallery();
-    for (const std::string& pointer : pointers) animate(b, pointer, 1, {0, 1});
-    b.load(at(1));
-    EXPECT_EQ(b.notices.warnings.size(), 1U);
-    return b.notices.warnings.empty() ? "" : b.notices.warnings[0];
-  };
-  EXPECT_EQ(
-      warned({"/materials/0/extensions/KHR_materials_fur/length"}),
-      "animations[0] \"show\" does not move /materials/0/extensions/KHR_materials_fur/length (unknown)");
-  for (const char* absent :
-       {"/materials/9/alphaCutoff", "/materials/00/alphaCutoff", "/materials/-1/alphaCutoff",
-        "/nodes/99/translation", "/meshes/1/weights", "/meshes/0/weights/0", "/cameras/0/orthographic/xmag",
-        "/cameras/0/perspective/zfar",
-        "/materials/0/emissiveTexture/extensions/KHR_texture_transform/rotation",
-        "/extensions/KHR_lights_punctual/lights/1/intensity"})
-    EXPECT_EQ(warned({absent}),
-              std::string("animations[0] \"show\" does not move ") + absent + " (not in the file)");
-  for (const char* unknown :
-       {"", "/", "//", "nodes/0/scale", "/nodes/0", "/nodes/0/", "/nodes/0/matrix", "/nodes/0/translation/0",
-        "/materials/0/name", "/materials/0/doubleSided", "/materials/0/emissiveFactor/0",
-        "/materials/0/normalTexture/index", "/materials/0/normalTexture/texCoord", "/meshes/0/primitives/0",
-        "/nodes/0/extensions/KHR_node_visibility", "/scenes/0/nodes", "/~1/~0"}) {
-    GltfBuilder b = gallery();
-    animate(b, unknown, 1, {0, 1});
-    b.load(at(1));
-    const std::string name = std::string(unknown).empty() ? "nothing" : unknown;
-    EXPECT_TRUE(mentions(b.notices.warnings, name + " (unknown)")) << unknown;
-  }
-  EXPECT_EQ(warned({"/a", "/b", "/c", "/d", "/e"}),
-            "animations[0] \"show\" does not move /a (unknown), /b (unknown), /c (unknown) and 2 more");
-  EXPECT_LT(warned({"/" + std::string(5000, 'x')}).size(), 200U);
-}
-
-TEST(GltfPointers, WrongAccessorsAreRefused) {
-  const auto refused = [](const std::string& pointer, const char* type, int components, const char* words,
-                          const char* interpolation = "LINEAR") {
-    GltfBuilder b = gallery();
-    const std::vector<float> values(static_cast<std::size_t>(2 * components), 0.5F);
-    channel(b, pointer, b.floats(type, components, values), 2, interpolation);
-    const std::string line = b.error(at(1));
-    EXPECT_NE(line.find(words), std::string::npos) << line;
-    EXPECT_NE(line.find(pointer), std::string::npos) << line;
-    EXPECT_NO_THROW(b.load()) << "at rest nobody reads it";
-  };
-  refused("/materials/0/alphaCutoff", "VEC3", 3, "takes SCALAR values, but its accessor has others");
-  refused("/materials/0/emissiveFactor", "SCALAR", 1, "takes VEC3 values");
-  refused("/materials/0/pbrMetallicRoughness/baseColorFactor", "MAT2", 4, "takes VEC4 values");
-  refused("/meshes/0/weights", "VEC2", 2, "takes SCALAR values");
-  refused("/nodes/0/extensions/KHR_node_visibility/visible", "SCALAR", 1, "takes unsigned bytes", "STEP");
-  GltfBuilder b = gallery();
-  showAtTimes(b, 0, {1, 0});
-  b.json["animations"][0]["samplers"][0]["interpolation"] = "LINEAR";
-  EXPECT_NE(b.error(at(1)).find("its interpolation must be STEP"), std::string::npos);
-  GltfBuilder nameless = gallery();
-  animate(nameless, "/x", 1, {0, 1});
-  Json& e = nameless.json["animations"][0]["channels"][0]["target"]["extensions"];
-  e["KHR_animation_pointer"] = Json::object();
-  EXPECT_NE(nameless.error(at(1)).find("pointer is missing"), std::string::npos);
-  e.clear();
-  nameless.load(at(1));
-  EXPECT_TRUE(mentions(nameless.notices.warnings, "does not move a pointer to nothing"));
 }
 
 }  // namespace

@@ -65,7 +65,8 @@ Json lightsJson(const Scene& scene) {
 
 Json animationsJson(const Scene& scene) {
   Json animations = Json::array();
-  for (const auto& a : scene.animations) animations.push_back({{"name", a.name}, {"seconds", a.seconds}});
+  for (const auto& a : scene.animations)
+    animations.push_back({{"name", a.name}, {"seconds", a.seconds}, {"pointers", a.pointers}});
   return animations;
 }
 

@@ -115,6 +115,13 @@ std::string fileText(const Notices& n) {
   return out;
 }
 
+std::string animationText(const AnimationFacts& a) {
+  const std::string length = fmt::format("{} s", formatReal(a.seconds));
+  if (a.pointers == 0) return length;
+  return fmt::format("{}; {} by KHR_animation_pointer", length,
+                     formatSome(a.pointers, "property", "properties"));
+}
+
 std::string contents(const Scene& s) {
   std::string counts = formatSome(s.triangles.size(), "triangle", "triangles");
   if (s.droppedTriangles > 0) counts += fmt::format(" ({} dropped)", formatInteger(s.droppedTriangles));
@@ -137,8 +144,7 @@ std::string contents(const Scene& s) {
     out += fmt::format("  {}, --time SECONDS shows one\n",
                        formatSome(s.animations.size(), "animation", "animations"));
   for (std::size_t i = 0; i < std::min(s.animations.size(), kShown); ++i)
-    out += entry(i, s.animations[i].name, widestName(s.animations),
-                 fmt::format("{} s", formatReal(s.animations[i].seconds)));
+    out += entry(i, s.animations[i].name, widestName(s.animations), animationText(s.animations[i]));
   if (s.animations.size() > kShown)
     out +=
         fmt::format("    … and {} more (--json has them all)\n", formatInteger(s.animations.size() - kShown));

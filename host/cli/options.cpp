@@ -56,7 +56,9 @@ void addSceneOptions(CLI::App& c, SceneOptions& o) {
           {"NAME|INDEX", "which variant of the materials (KHR_materials_variants); info lists them", "none"});
   addText(
       c, "--time", [&o](const std::string& v) { o.time = parseReal("--time", v, 0, kLongestTime); },
-      {"SECONDS", "show nodes, skins and morph targets as the animation has them then", "as the file rests"});
+      {"SECONDS",
+       "show the scene as the animation has it then: nodes, skins, morph targets and properties by pointer",
+       "as the file rests"});
   addText(c, "--background", [&o](const std::string& v) { o.background = v; },
           {"R,G,B|FILE",
            "what rays that leave the scene see: a radiance in W/(m² sr), or an equirectangular .hdr or .exr "

@@ -18,7 +18,6 @@ struct Look {
 };
 constexpr std::array kLooks{
     Look{"KHR_materials_volume_scatter", "nothing is scattered inside solids"},
-    Look{"KHR_animation_pointer", "only nodes and weights are animated"},
 };
 
 /// What a tool makes Whittle's of. Textures of such a format may have another image beside it.

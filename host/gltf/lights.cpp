@@ -48,17 +48,19 @@ void setFrame(double aspect, double znear, double zfar, Camera& camera) {
 }
 
 /// False if the lens cannot be used.
-bool readLens(const tinygltf::Camera& lens, Camera& camera) {
-  camera.orthographic = lens.type == "orthographic";
+bool readLens(const Json& json, Camera& camera) {
+  camera.orthographic = json["type"] == "orthographic";
+  const Json& lens = child(json, camera.orthographic ? "orthographic" : "perspective");
+  const double znear = number(lens, "znear", 0.0), zfar = number(lens, "zfar", 0.0);
   if (camera.orthographic) {
-    camera.ymag = static_cast<float>(std::abs(lens.orthographic.ymag));
-    setFrame(std::abs(lens.orthographic.xmag) / static_cast<double>(camera.ymag), lens.orthographic.znear,
-             lens.orthographic.zfar, camera);
+    camera.ymag = static_cast<float>(std::abs(number(lens, "ymag", 0.0)));
+    setFrame(std::abs(number(lens, "xmag", 0.0)) / static_cast<double>(camera.ymag), znear, zfar, camera);
     return camera.ymag > 0.0F && std::isfinite(camera.ymag);
   }
-  setFrame(lens.perspective.aspectRatio, lens.perspective.znear, lens.perspective.zfar, camera);
-  camera.yfov = static_cast<float>(lens.perspective.yfov);
-  return camera.yfov > 0.0F && lens.perspective.yfov < std::numbers::pi;
+  setFrame(number(lens, "aspectRatio", 0.0), znear, zfar, camera);
+  const double yfov = number(lens, "yfov", 0.0);
+  camera.yfov = static_cast<float>(yfov);
+  return camera.yfov > 0.0F && yfov < std::numbers::pi;
 }
 
 void readCone(const Json& light, const std::string& label, Light& out, Notices& notices) {
@@ -117,15 +119,16 @@ void readCameras(const Document& document, const Hierarchy& hierarchy, Scene& sc
   for (const int node : hierarchy.cameras) {
     const int index = document.nodes[at(node)].camera;
     Camera camera;
-    const tinygltf::Camera& lens = document.model.cameras[at(index)];
-    if (!readLens(lens, camera) || !placeCamera(hierarchy.toWorld[at(node)], camera)) {
+    const Json& json = document.json["cameras"][at(index)];
+    if (!readLens(json, camera) || !placeCamera(hierarchy.toWorld[at(node)], camera)) {
       notices.warn(
           fmt::format("camera {} at {} has a lens or a transform that cannot be used; it is left out", index,
                       nodeLabel(document, node)));
       continue;
     }
     camera.node = document.nodes[at(node)].name;
-    camera.name = lens.name.empty() ? camera.node : lens.name;
+    camera.name = json.value("name", "");
+    if (camera.name.empty()) camera.name = camera.node;
     found.emplace_back(index, std::move(camera));
   }
   std::stable_sort(found.begin(), found.end(),

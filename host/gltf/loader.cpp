@@ -152,13 +152,13 @@ void readBackground(const Document& document, int sceneIndex, Scene& scene, Noti
   scene.background.radiance = {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
 }
 
-/// Which nodes an animation moves, once they are where it has them; says what is shown.
-std::vector<bool> pose(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
+/// What an animation moves, once it is as it has it; says what is shown.
+Moved pose(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
   scene.animations = document.animationFacts;
   const auto& all = scene.animations;
   if (document.isPosed) {
     if (all.empty() && !options.animation) notices.note("the file has no animation: nothing moves");
-    Posed posed = poseNodes(document, options.animation, options.time.value_or(0.0));
+    Posed posed = poseDocument(document, options.animation, options.time.value_or(0.0));
     const double end = posed.animation < 0 ? 0.0 : all[at(posed.animation)].seconds;
     if (end > 0.0 && options.time.value_or(0.0) > end)
       notices.note(fmt::format("the animation ends at {:.4g} s: its last pose is shown", end));
@@ -169,7 +169,7 @@ std::vector<bool> pose(Document& document, const LoadOptions& options, Scene& sc
         "the scene is shown at rest; --time SECONDS shows {}{}, {:.4g} s long",
         all.size() == 1 ? "its animation" : fmt::format("the first of its {} animations", all.size()),
         quotedName(all[0].name), all[0].seconds));
-  return std::vector<bool>(document.nodes.size());
+  return {std::vector<bool>(document.nodes.size()), {}, {}, {}, {}};
 }
 
 /// extras.whittle.sky of the scene, [elevation, azimuth] or with a turbidity behind them.
@@ -199,16 +199,23 @@ void readSky(const Document& document, int sceneIndex, Scene& scene, Notices& no
 
 Loaded load(Document& document, const LoadOptions& options, Scene& scene, Notices& notices) {
   Loaded loaded;
-  std::vector<bool> moved = pose(document, options, scene, notices);
+  Moved moved = pose(document, options, scene, notices);
   Hierarchy hierarchy = readHierarchy(document, options.sceneName, notices);
   applyVariant(document, options.variant);
-  loaded.movement = movementOf(document, hierarchy, std::move(moved));
+  std::optional<Hierarchy> atAnyTime;
+  if (!hierarchy.shownSometime.empty()) {
+    atAnyTime = hierarchy;
+    atAnyTime->shown = hierarchy.shownSometime;
+  }
+  const Hierarchy& all = atAnyTime ? *atAnyTime : hierarchy;  // what later poses show is read with the rest
+  const std::set<int> materials = usedMaterials(document, all);
+  loaded.movement = movementOf(document, all, materials, std::move(moved));
   scene.meshesMove = loaded.movement.meshes;
-  unpackMeshes(document, hierarchy);
-  loaded.sums = holdGeometry(document, hierarchy, options.laterTriangleBytes);
+  unpackMeshes(document, all);
+  loaded.sums = holdGeometry(document, all, options.laterTriangleBytes);
   settlePlace(document, hierarchy, notices);
   scene.origin = hierarchy.origin;
-  loaded.materials = readMaterials(document, usedMaterials(document, hierarchy), scene, notices);
+  loaded.materials = readMaterials(document, materials, scene, notices);
   {
     const LoggedWork work(document.log, "read meshes");
     MeshLoader(document, hierarchy, loaded.sums, loaded.materials, scene, notices).addAll();
@@ -245,10 +252,11 @@ void move(Document& document, const LoadOptions& options, const Loaded& loaded, 
   document.notices = &heardBefore;
   MemoryBudget heldBefore({std::numeric_limits<std::uint64_t>::max() / 2, true});
   document.budget = &heldBefore;
-  poseNodes(document, options.animation, seconds);
+  poseDocument(document, options.animation, seconds);
   Hierarchy hierarchy = readHierarchy(document, options.sceneName, heardBefore);
   settlePlace(document, hierarchy, heardBefore);
   scene.origin = hierarchy.origin;
+  changeMaterials(document, loaded.movement.materials, scene, heardBefore);
   if (loaded.movement.meshes) {
     dropMeshes(scene);
     MeshLoader(document, hierarchy, loaded.sums, loaded.materials, scene, heardBefore).addAll();
@@ -313,7 +321,10 @@ void OpenFile::moveTo(double seconds, Scene& scene) {
   gltf::inOneLine(s.document, [&] { gltf::move(s.document, s.options, s.loaded, seconds, scene); });
 }
 
-bool OpenFile::moves() const { return state_->loaded.movement.meshes || state_->loaded.movement.eyesOrLamps; }
+bool OpenFile::moves() const {
+  const gltf::Movement& m = state_->loaded.movement;
+  return m.meshes || m.eyesOrLamps || !m.materials.empty();
+}
 
 Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, Notices& notices) {
   std::optional<OpenFile> file(std::in_place);

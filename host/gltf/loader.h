@@ -52,11 +52,11 @@ class OpenFile {
 
   /// As loadGltf, once.
   Scene load(const std::filesystem::path& path, const LoadOptions& options, Notices& notices);
-  /// Puts cameras, lights and meshes of that scene where the animation has them at `seconds`, as `load` would
-  /// with this time; all else of it stays as it is, what was added among it. Its arrays are whole, but where
-  /// no mesh moves.
+  /// Makes cameras, lights, materials and meshes of that scene what the animation has at `seconds`, as `load`
+  /// would with this time; all else of it stays as it is, what was added among it. Its arrays are whole, but
+  /// where no mesh moves.
   void moveTo(double seconds, Scene& scene);
-  /// Whether a mesh, a camera or a light that is shown moves, for options with a time.
+  /// Whether a mesh, a camera, a light or a material that is shown moves, for options with a time.
   bool moves() const;
 
  private:

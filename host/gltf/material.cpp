@@ -159,6 +159,28 @@ AlphaMode alphaModeOf(const std::string& mode, const std::string& label, Notices
 /// Roughness from which clear glass looks wrong; textures may make a surface smoother than its factor.
 bool transmitsRoughly(const Material& m) { return m.transmission > 0.0F && m.roughness > 0.2F; }
 
+const Json* glossinessOf(const Json& material) {
+  return extension(material, "KHR_materials_pbrSpecularGlossiness");
+}
+
+/// All of it but the roughness that is made of glossiness, see makeRoughness.
+Material readMaterial(Document& document, int index, TextureReader& textures, Notices& notices) {
+  Json& json = document.json["materials"][at(index)];
+  const Json* const glossy = glossinessOf(json);
+  if (glossy) json.erase("pbrMetallicRoughness");  // for readers without the extension
+  const std::string label = materialLabel(json, at(index));
+  Material material;
+  material.name = json.value("name", "");
+  material.index = index;
+  material.alphaMode = alphaModeOf(json.value("alphaMode", "OPAQUE"), label, notices);
+  readBase(json, textures, material);
+  readExtensions(json, label, textures, material, notices);
+  if (glossy) readSpecularGlossiness(*glossy, textures, material);
+  // Kept as they are, so that the picture shows what the file says; but said.
+  if (!isInRange(material)) notices.warn(fmt::format("{}: {}", label, kFactorFlaw));
+  return material;
+}
+
 }  // namespace
 
 std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, Scene& scene,
@@ -171,25 +193,11 @@ std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, 
   int rough = 0;
   for (const int index : wanted) {
     if (index < 0) continue;
-    const auto i = static_cast<std::size_t>(index);
-    Json& json = document.json["materials"][i];
-    const Json* const glossy = extension(json, "KHR_materials_pbrSpecularGlossiness");
-    if (glossy) json.erase("pbrMetallicRoughness");  // for readers without the extension
-    const std::string label = materialLabel(json, i);
-    Material material;
-    material.name = json.value("name", "");
-    material.index = index;
-    material.alphaMode = alphaModeOf(json.value("alphaMode", "OPAQUE"), label, notices);
-    readBase(json, textures, material);
-    readExtensions(json, label, textures, material, notices);
-    if (glossy) {
-      readSpecularGlossiness(*glossy, textures, material);
+    Material material = readMaterial(document, index, textures, notices);
+    if (const Json* const glossy = glossinessOf(document.json["materials"][at(index)]))
       glossyMaterials.push_back({scene.materials.size(), number(*glossy, "glossinessFactor", 1.0)});
-    }
-    // Kept as they are, so that the picture shows what the file says; but said.
-    if (!isInRange(material)) notices.warn(fmt::format("{}: {}", label, kFactorFlaw));
     rough += transmitsRoughly(material);
-    indices[i + 1] = static_cast<int>(scene.materials.size());
+    indices[at(index) + 1] = static_cast<int>(scene.materials.size());
     scene.materials.push_back(std::move(material));
   }
   textures.decodeAll();
@@ -205,6 +213,19 @@ std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, 
     scene.materials.push_back(std::move(fallback));
   }
   return indices;
+}
+
+void changeMaterials(Document& document, const std::set<int>& changed, Scene& scene, Notices& notices) {
+  ImageSources sources(document);
+  TextureReader textures(document, sources, scene, notices);
+  for (Material& material : scene.materials) {
+    if (!changed.contains(material.index)) continue;
+    Material now = readMaterial(document, material.index, textures, notices);
+    for (const auto slot : kTextureSlots) (now.*slot).image = (material.*slot).image;
+    now.occlusionTexture.image = material.occlusionTexture.image;
+    if (glossinessOf(document.json["materials"][at(material.index)])) now.roughness = material.roughness;
+    material = std::move(now);
+  }
 }
 
 }  // namespace whittle::gltf

@@ -15,4 +15,7 @@ namespace whittle::gltf {
 std::vector<int> readMaterials(Document& document, const std::set<int>& wanted, Scene& scene,
                                Notices& notices);
 
+/// Reads the numbers of these materials of the file again, where the scene has them; their images stay.
+void changeMaterials(Document& document, const std::set<int>& changed, Scene& scene, Notices& notices);
+
 }  // namespace whittle::gltf

@@ -17,6 +17,7 @@ struct Node {
   int light = -1;                     ///< KHR_lights_punctual
   std::vector<int> children;          ///< in file order
   bool isVisible = true;              ///< KHR_node_visibility; false: nor is what hangs on it
+  bool comesAndGoes = false;          ///< an animation decides when it is visible
   std::unique_ptr<glm::dmat4> local;  ///< to the parent; null: the identity
 
   /// What animations move one by one.

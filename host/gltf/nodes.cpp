@@ -105,13 +105,14 @@ int chooseScene(const Document& document, const std::optional<std::string>& want
   return 0;
 }
 
-/// By node: it or one above it is not visible.
-std::vector<bool> hiddenNodes(const Document& document, const Parents& parents,
-                              const std::vector<int>& roots) {
+/// By node: it or one above it is not visible. `always`: at any time.
+std::vector<bool> hiddenNodes(const Document& document, const Parents& parents, const std::vector<int>& roots,
+                              bool always) {
   std::vector<bool> isHidden(parents.size());
   walk(document.nodes, roots, [&](int node) {
-    isHidden[at(node)] =
-        !document.nodes[at(node)].isVisible || (parents[at(node)] >= 0 && isHidden[at(parents[at(node)])]);
+    const Node& n = document.nodes[at(node)];
+    const bool hides = !n.isVisible && !(always && n.comesAndGoes);
+    isHidden[at(node)] = hides || (parents[at(node)] >= 0 && isHidden[at(parents[at(node)])]);
   });
   return isHidden;
 }
@@ -165,10 +166,15 @@ Hierarchy readHierarchy(Document& document, const std::optional<std::string>& sc
       hierarchy.scene < 0
           ? allRoots
           : distinctRoots(document, parents, allRoots, model.scenes[at(hierarchy.scene)].nodes, notices);
-  const std::vector<bool> isHidden = hiddenNodes(document, parents, allRoots);
+  const std::vector<bool> isHidden = hiddenNodes(document, parents, allRoots, false);
+  const bool changes = std::any_of(document.nodes.begin(), document.nodes.end(),
+                                   [](const Node& node) { return node.comesAndGoes; });
+  const std::vector<bool> isNeverSeen =
+      changes ? hiddenNodes(document, parents, allRoots, true) : std::vector<bool>();
   walk(document.nodes, roots, [&](int node) {
     if (document.nodes[at(node)].camera >= 0) hierarchy.cameras.push_back(node);
     if (!isHidden[at(node)]) hierarchy.shown.push_back(node);
+    if (changes && !isNeverSeen[at(node)]) hierarchy.shownSometime.push_back(node);
   });
   return hierarchy;
 }

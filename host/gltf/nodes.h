@@ -13,6 +13,7 @@ namespace whittle::gltf {
 struct Hierarchy {
   int scene = -1;                   ///< -1: the file has none, all nodes are shown
   std::vector<int> shown;           ///< visible nodes of the scene, parents first, in file order
+  std::vector<int> shownSometime;   ///< with those that an animation shows at other times; empty: the same
   std::vector<int> cameras;         ///< its nodes with a camera in the same order, visible or not
   std::vector<glm::dmat4> toWorld;  ///< of every node of the file, shown or not (joints may lie outside)
   glm::dvec3 origin{0.0};           ///< metres; what was taken off toWorld, see Scene::origin

@@ -191,7 +191,10 @@ constexpr auto kMaterial = forgiving(std::array{
     text("name"), object("pbrMetallicRoughness", kPbr), object("normalTexture", kSlot),
     object("occlusionTexture", kSlot), object("emissiveTexture", kSlot), nums("emissiveFactor", 3),
     text("alphaMode"), num("alphaCutoff"), flag("doubleSided"), object("extensions", kMaterialExtensions)});
-constexpr std::array kChannelTarget{index("node", "nodes"), required(text("path"))};
+constexpr std::array kPointer{required(text("pointer"))};
+constexpr std::array kTargetExtensions{object("KHR_animation_pointer", kPointer)};
+constexpr std::array kChannelTarget{index("node", "nodes"), required(text("path")),
+                                    object("extensions", kTargetExtensions)};
 constexpr std::array kChannel{required(smallSize("sampler")), required(object("target", kChannelTarget))};
 constexpr std::array kAnimationSampler{required(index("input", "accessors")),
                                        required(index("output", "accessors")), text("interpolation")};
@@ -230,6 +233,8 @@ std::span<const Field> rootFields() { return kRoot; }
 
 std::span<const Field> animationFields() { return kAnimations; }
 
-bool readsExtension(std::string_view name) { return hasExtension(kRoot, name); }
+bool readsExtension(std::string_view name) {
+  return hasExtension(kRoot, name) || hasExtension(kAnimations, name);
+}
 
 }  // namespace whittle::gltf

@@ -216,7 +216,8 @@ struct Background {
 /// One of the animations of the scene's file.
 struct AnimationFacts {
   std::string name;
-  double seconds = 0.0;  ///< the time of its last keyframe, as the file says
+  double seconds = 0.0;      ///< the time of its last keyframe, as the file says
+  std::size_t pointers = 0;  ///< of its channels: by JSON pointer (KHR_animation_pointer)
 };
 
 /// Per-vertex arrays are either empty (no triangle of the scene needs them) or as long as `positions`.

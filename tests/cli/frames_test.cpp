@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "cli/frames.h"
 #include "gltf/builder.h"
@@ -85,6 +86,60 @@ TEST(Frames, WhatDoesNotMoveIsSaid) {
   EXPECT_NE(warned("still.glb", "0:1").find("the 2 pictures are alike"), std::string::npos);
   EXPECT_EQ(warned("still.glb", "0:0").find("alike"), std::string::npos) << "one picture";
   EXPECT_EQ(warned("moving.glb", "0:1").find("alike"), std::string::npos);
+}
+
+/// A pane that is opaque at 0 s and clear at 1 s, before a glowing wall that is there from 0.5 s on.
+std::string changingScene() {
+  GltfBuilder b;
+  b.push("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+  const int pane = b.material({{"emissiveFactor", {0, 0.25, 0}},
+                               {"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+                               {"extensions", {{"KHR_materials_transmission", Json::object()}}}});
+  const int glow = b.material({{"emissiveFactor", {1, 0.5, 0.25}}});
+  b.node({{"mesh", b.triangleMesh({{"material", pane}})}});
+  const int wall = b.node({{"mesh", b.triangleMesh({{"material", glow}})},
+                           {"translation", {-1, -1, -1}},
+                           {"scale", {4, 4, 1}},
+                           {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
+  b.node({{"camera", 0}, {"translation", {0.3, 0.3, 2}}});
+  const int times = b.floats("SCALAR", 1, {0, 1}), clear = b.floats("SCALAR", 1, {0, 1});
+  const int moments = b.floats("SCALAR", 1, {0, 0.5F});
+  b.json["accessors"][times]["max"] = {1};
+  const int shown = b.accessor(b.view<std::uint8_t>({0, 1}), "SCALAR", kUbyte, 2);
+  const auto channel = [](int sampler, const std::string& pointer) {
+    return Json{{"sampler", sampler},
+                {"target",
+                 {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}};
+  };
+  b.push("animations",
+         {{"samplers",
+           {{{"input", times}, {"output", clear}},
+            {{"input", moments}, {"output", shown}, {"interpolation", "STEP"}}}},
+          {"channels",
+           {channel(0, "/materials/0/extensions/KHR_materials_transmission/transmissionFactor"),
+            channel(1, "/nodes/" + std::to_string(wall) + "/extensions/KHR_node_visibility/visible")}}});
+  return b.glb();
+}
+
+/// What a scene needs is asked of each frame: the first lets no light through, and has one mesh.
+TEST(Frames, WhatChangesByPointerIsThePictureOfItsTime) {
+  const Folder folder;
+  write(folder / "moving.glb", changingScene());
+  const Outcome all =
+      runWhittle(small({"--frames", "0:2", "--fps", "2", "-o", "f_#.exr"}), {folder.path(), {}});
+  ASSERT_EQ(all.status, 0) << all.err;
+  EXPECT_EQ(all.err.find("alike"), std::string::npos) << all.err;
+  std::set<std::vector<float>> seen;
+  for (const char* k : {"0", "1", "2"}) {
+    const std::string time = std::to_string(std::stoi(k) / 2.0);
+    ASSERT_EQ(runWhittle(small({"--time", time, "-o", "one.exr"}), {folder.path(), {}}).status, 0);
+    const auto pixels = readFloatImage(folder / "one.exr").pixels;
+    EXPECT_EQ(readFloatImage(folder / (std::string("f_") + k + ".exr")).pixels, pixels) << k;
+    seen.insert(pixels);
+  }
+  EXPECT_EQ(seen.size(), 3U);
+  const Outcome info = runWhittle({"info", "moving.glb"}, {folder.path(), {}});
+  EXPECT_NE(info.out.find("1 s; 2 properties by KHR_animation_pointer"), std::string::npos) << info.out;
 }
 
 /// Texels stay on the device while meshes move below a sky that stays.
@@ -201,7 +256,7 @@ TEST(Frames, InfoListsAnimations) {
   EXPECT_NE(text.out.find("slide"), std::string::npos);
   const auto json =
       nlohmann::json::parse(runWhittle({"info", "moving.glb", "--json"}, {folder.path(), {}}).out);
-  EXPECT_EQ(json["animations"], (nlohmann::json{{{"name", "slide"}, {"seconds", 1.0}}}));
+  EXPECT_EQ(json["animations"], (nlohmann::json{{{"name", "slide"}, {"seconds", 1.0}, {"pointers", 0}}}));
 }
 
 }  // namespace

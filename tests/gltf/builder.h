@@ -155,6 +155,13 @@ class GltfBuilder {
   }
 };
 
+/// As the animation has the file at that time.
+inline LoadOptions at(double seconds) {
+  LoadOptions options;
+  options.time = seconds;
+  return options;
+}
+
 /// The text of the InputError that loading `path` must end in.
 inline std::string errorOf(const std::filesystem::path& path) {
   Notices notices;

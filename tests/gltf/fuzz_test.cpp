@@ -15,7 +15,7 @@ using test::GltfBuilder;
 using test::Json;
 
 /// An animation, a skin, a morph target, sparse values, instances, a texture with transform and sampler,
-/// lights, cameras, variants, glossiness, other images of textures, visibility.
+/// lights, cameras, variants, glossiness, other images of textures, visibility, properties by pointer.
 GltfBuilder everything() {
   GltfBuilder b;
   b.json["extensionsUsed"] = {"KHR_texture_transform", "EXT_mesh_gpu_instancing", "KHR_lights_punctual"};
@@ -108,6 +108,18 @@ GltfBuilder everything() {
            {{{"sampler", 0}, {"target", {{"node", joint}, {"path", "translation"}}}},
             {{"sampler", 1}, {"target", {{"node", joint}, {"path", "rotation"}}}},
             {{"sampler", 2}, {"target", {{"node", joint + 1}, {"path", "weights"}}}}}}});
+  const auto point = [&](const char* pointer, int sampler) {
+    b.json["animations"][0]["channels"].push_back(
+        {{"sampler", sampler},
+         {"target",
+          {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
+  };
+  point("/materials/0/emissiveFactor", 0);
+  point("/nodes/0/translation", 0);
+  point("/meshes/0/weights/0", 2);
+  point("/cameras/0/perspective/yfov", 2);
+  point("/extensions/KHR_lights_punctual/lights/0/spot/innerConeAngle", 2);
+  point("/materials/0/normalTexture/extensions/KHR_texture_transform/rotation", 2);
   b.node({{"mesh", b.triangleMesh({{"material", 1}})},
           {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}});
   b.json["scenes"][0]["extras"]["whittle"]["background"] = {1, 1, 1};
@@ -132,7 +144,9 @@ bool loadsOrSays(const test::TemporaryFolder& folder, const std::string& content
   LoadOptions options;
   options.time = 0.5;
   try {
-    loadGltf(path, options, notices);
+    OpenFile file;
+    Scene scene = file.load(path, options, notices);
+    file.moveTo(0.75, scene);
     return true;
   } catch (const InputError& e) {
     const std::string text = e.what();

@@ -89,6 +89,17 @@ TEST(Webp, DamagedOnesAreRefused) {
     EXPECT_TRUE(refused({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)})) << length;
 }
 
+/// EXT_texture_webp: textures should not contain animations.
+TEST(Webp, AnimatedOnesAreRefusedByName) {
+  const std::string file("RIFF\x16\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\x03\0\0\x02\0\0", 30);
+  try {
+    decodeImage(std::as_bytes(std::span(file)), "a.webp");
+    ADD_FAILURE() << "it was decoded";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "a.webp: is an animated WebP, which Whittle does not read");
+  }
+}
+
 TEST(Webp, MutatedOnesAreDecodedOrRefused) {
   const auto whole = losslessWebp(pixels(), 4, 3);
   std::mt19937 random(6);

@@ -251,6 +251,20 @@ Bvh8 buildBvh8(const TriTree& tree) {
   return wide;
 }
 
+Bvh8 buildLeaves(const TriTree& tree) {
+  const auto triangles = static_cast<std::uint32_t>(tree.order.size());
+  Bvh8 wide;
+  wide.leaves = (triangles + kLanes - 1) / kLanes;
+  wide.nodes.resize((wide.leaves + kLanes - 1) / kLanes);
+  for (std::uint32_t leaf = 0; leaf < kLanes * wide.nodes.size(); ++leaf) {
+    const std::uint32_t first = kLanes * leaf,
+                        count = std::min(kLanes, triangles - std::min(triangles, first));
+    wide.nodes[leaf / kLanes].child[leaf % kLanes] =
+        count > 0 ? ~static_cast<std::int32_t>(first << 3U | (count - 1)) : 0;
+  }
+  return wide;
+}
+
 void eachLeafPart(const Bvh8& wide, const TriTree& tree, const CornersOf& cornersOf,
                   const TakeLeafFloats& take) {
   constexpr std::size_t kAtOnce = 1 << 14;  // leaves: some 2 MB

@@ -37,6 +37,10 @@ struct Bvh8 {
 /// lanes empty. Parallel with TBB over the calling arena's threads; the result depends on the input alone.
 Bvh8 buildBvh8(const TriTree& tree);
 
+/// No tree, but its triangles in leaves of eight, for searches that go from one to the next: the nodes name
+/// them in their order and have no boxes.
+Bvh8 buildLeaves(const TriTree& tree);
+
 /// Floats of the leaves' corners: nine for each triangle, and as many zeros, so that a lane beyond the last
 /// leaf's count may be read, and a triangle that nothing hits.
 inline std::size_t leafFloats(const TriTree& tree) { return 9 * tree.order.size() + 9; }

@@ -56,7 +56,7 @@ void setSurface(device::DeviceTriangle& triangle, const SurfaceKind& surface) {
 }
 
 /// Triangles in leaf order and, last, a degenerate one that nothing hits: what an absent child points to.
-/// `places`: see leafPlaces; empty without an eight-wide tree.
+/// `places`: see leafPlaces; empty without PACKETS.
 Buffer uploadTriangles(Compute& compute, const Scene& scene, const std::vector<SurfaceKind>& surfaces,
                        const std::vector<std::uint32_t>& order, const std::vector<std::uint8_t>& places) {
   const std::size_t all = order.size() + 1;
@@ -210,19 +210,19 @@ DeviceScene uploadScene(Compute& compute, const Scene& scene, const PrunedScene&
   DeviceScene d;
   d.triangleCount = static_cast<std::uint32_t>(tree.order.size());
   std::vector<std::uint8_t> places;
-  if (features.has(Feature::TREE) && !features.has(Feature::PACKETS))
-    d.nodes = compute.upload("nodes", withSentinels(tree));
-  if (features.has(Feature::TREE) && features.has(Feature::PACKETS)) {
-    const Bvh8 wide = buildBvh8(tree);
+  const bool hasTree = features.has(Feature::TREE);
+  if (features.has(Feature::PACKETS)) {
+    const Bvh8 wide = hasTree ? buildBvh8(tree) : buildLeaves(tree);
     freeArray(tree.nodes);
     returnFreedMemory();  // of the parts that the wide tree was put together from
     if (wide.depth > BVH8_DEPTH)
       throw ClError(fmt::format("the eight-wide tree is {} nodes deep, the kernels have room for {}",
                                 wide.depth, BVH8_DEPTH));
-    d.bvh8Nodes = compute.upload("bvh8Nodes", wide.nodes);
+    if (hasTree) d.bvh8Nodes = compute.upload("bvh8Nodes", wide.nodes);
     d.leaves = uploadLeaves(compute, scene, wide, tree);
     places = leafPlaces(wide, tree);
   } else {
+    if (hasTree) d.nodes = compute.upload("nodes", withSentinels(tree));
     d.leaves = uploadLeaves(compute, scene, tree);
   }
   d.tables = tablesOf(scene, pruned);

@@ -1,5 +1,5 @@
-// The corners of triangles, m, world space: kept once, in the order in which searches read them. Eight-wide leaves lie
-// as structs of arrays (host/bvh/bvh8.h), all else is triangle after triangle, which is a leaf of one.
+// The corners of triangles, m, world space: kept once, in the order in which searches read them. For packets they lie
+// leaf by leaf as structs of arrays (host/bvh/bvh8.h), else triangle after triangle.
 #include "lib/lanes.cl"
 #include "lib/scene.cl"
 
@@ -13,7 +13,6 @@ typedef struct {
 INLINE CornerPlace cornerPlace(const SceneView* scene, Natural triangle) {
   CornerPlace place;
 #if HAS(PACKETS)
-  // What draws small scenes one triangle after another may have taken them over from what searched a tree.
   __global const uint* flags = (__global const uint*)scene->triangles + WORD_OF(DeviceTriangle, flags);
   const Natural at = gatherWords(flags, triangle * WORDS_OF(DeviceTriangle)) >> TRIANGLE_PLACE;
   const Natural lane = at & 7u;

@@ -31,7 +31,7 @@ WHITTLE_STRUCT(Node) {
 #define TRIANGLE_COATS 4u      // alpha BLEND: comes before what lies in the same plane
 #define TRIANGLE_ONE_SIDED 8u  // eye and impulse rays do not meet its back
 // Behind the flags, where the triangle lies in its leaf: its lane, and the leaf's triangles less one, three bits each.
-// 0 where there is no eight-wide tree.
+// 0 without PACKETS.
 #define TRIANGLE_PLACE 8
 #define TRIANGLE_PLACE_BITS (63u << TRIANGLE_PLACE)
 

@@ -98,6 +98,27 @@ TEST(Bvh8, HoldsEveryTriangleOnce) {
     expectWhole(test::randomSoup(count, 0.1F, 41 + count), std::to_string(count));
 }
 
+/// Leaves of eight, the last of what is left.
+TEST(Bvh8, LeavesWithoutATree) {
+  for (const std::size_t count : {0U, 1U, 7U, 8U, 9U, 64U, 65U, 1000U}) {
+    SCOPED_TRACE(count);
+    const test::TriangleMesh mesh = test::randomSoup(count, 0.1F, 91);
+    TriTree order;
+    for (std::uint32_t i = 0; i < count; ++i) order.order.push_back(count - 1 - i);
+    const Bvh8 wide = buildLeaves(order);
+    const std::vector<float> corners = leavesOf(wide, order, mesh);
+    const std::vector<std::uint8_t> places = leafPlaces(wide, order);
+    EXPECT_EQ(wide.leaves, (count + 7) / 8);
+    ASSERT_EQ(places.size(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t lane = i % 8, first = i - lane, size = std::min<std::size_t>(8, count - first);
+      EXPECT_EQ(places[i], lane + 8 * (size - 1)) << i;
+      const glm::vec3 p = mesh.positions[mesh.triangles[order.order[i]].z];
+      EXPECT_EQ(corners[9 * first + 8 * size + lane], p.z) << i;
+    }
+  }
+}
+
 TEST(Bvh8, LongLeavesAreSplit) {
   test::TriangleMesh alike;
   for (int i = 0; i < 1000; ++i) alike.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});

@@ -12,23 +12,31 @@
 #if HAS(PACKETS)
 
 #if !HAS(TREE)
+// Leaf after leaf, so that where the corners are is found once for each: of eight triangles in their order, or those of
+// a tree that a general program searched before.
 
 void nearestPacket(const SceneView* scene, const Packet* p, PacketHit* best) {
   best->t = wakeFinite(p, best->t);
 #if HAS(STRAIGHT)
   best->order = best->t;
 #endif
-  for (uint i = 0; i < scene->triangleCount; ++i) {
-    const Corners triangle = cornersOfTriangle(scene, i);
-    testNearestPacket(scene, p, triangle.at, triangle.stride, i, best);
+  uint count;
+  for (uint first = 0; first < scene->triangleCount; first += count) {
+    const Corners leaf = cornersOfTriangle(scene, first);
+    count = leaf.stride;
+    for (uint lane = 0; lane < count; ++lane) testNearestPacket(scene, p, leaf.at + lane, count, first + lane, best);
   }
 }
 
 void occludedPacket(const SceneView* scene, const Packet* p, float16* tMax, uint* stops) {
   *tMax = wakeFinite(p, *tMax);
-  for (uint i = 0; i < scene->triangleCount; ++i) {
-    const Corners triangle = cornersOfTriangle(scene, i);
-    if (testOcclusionPacket(scene, p, triangle.at, triangle.stride, i, tMax, stops) && allOf16(*tMax < 0.0f)) return;
+  uint count;
+  for (uint first = 0; first < scene->triangleCount; first += count) {
+    const Corners leaf = cornersOfTriangle(scene, first);
+    count = leaf.stride;
+    for (uint lane = 0; lane < count; ++lane)
+      if (testOcclusionPacket(scene, p, leaf.at + lane, count, first + lane, tMax, stops) && allOf16(*tMax < 0.0f))
+        return;
   }
 }
 

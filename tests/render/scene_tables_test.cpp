@@ -69,7 +69,7 @@ Scene texturedFloor(const Material& material) {
   scene.uv0[1] = {0, 1}, scene.uv0[2] = {1, 1}, scene.uv0[3] = {1, 0};
   scene.normals.assign(scene.positions.size(), glm::vec3(0, 1, 0));
   scene.tangents.assign(scene.positions.size(), glm::vec4(1, 0, 0, 1));
-  scene.lights = {pointLight({1, 3, 0.5F}, 20)};
+  scene.lights = {pointLight({1, 3, 0.5F}, 20), pointLight({-1, -2, 0.5F}, 20)};  // one behind the floor
   scene.background.radiance = glm::vec3(0.3F);
   return scene;
 }

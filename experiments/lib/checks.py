@@ -43,6 +43,8 @@ CHECKS = {
                     "window.py", "window.tsv", ("--pairs", "1", "--rays", "4", str(SCENES / "cornell_box.glb"))),
     "searches": Check("How fast are the searches, beside Embree's?",
                       "searches.sh", "searches.txt", ("--quick",), ("make_scenes",)),
+    "visits": Check("How many nodes and triangles does a ray visit, beside Embree's tree?",
+                    "visits.sh", "visits.tsv", ("--quick",), ("make_scenes", "visits")),
     "build_quality": Check("What does the fast build of the tree cost the rays?",
                            "build_quality.sh", "build_quality.tsv", ("--quick",), ("make_scenes", "build_quality")),
 }

@@ -8,7 +8,9 @@
 
 // A work-group function of PoCL is compiled three times over, so that no helper is called once only and few would be
 // put in line; in line they take a tenth less time in shade.
+#ifndef INLINE  // noinline for Oclgrind: what is put in line has hints about aliases that it does not know
 #define INLINE __attribute__((always_inline))
+#endif
 
 #define PI 3.14159265358979323846f
 

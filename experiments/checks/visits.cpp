@@ -1,5 +1,5 @@
 // How many nodes, leaves and triangles does a ray visit in Whittle's eight-wide tree, and how many in one
-// that Embree's builder makes with the settings of Embree's own trees (rtcBuildBVH: eight children, blocks of
+// that Embree's builder makes (rtcBuildBVH: eight children, blocks of
 // four triangles)? The same plain walk counts in both: the nearest child first, what lies behind the hit left
 // out; any hit takes children as they stand. Beside it how many of the packets of sixteen rays would go
 // together. Tab-separated lines to standard output. usage: visits [--rays N] SCENE.glb ...

@@ -49,7 +49,6 @@ TEST(DiffuseTransmission, IsShadowedOnTheSideOfTheLight) {
   const glm::vec3 lit = shot(scene, {0, 1, 0}, {0, -1, 0}, 1);
   EXPECT_GT(lit.x, 0);
   addQuad(scene, addMaterial(scene, lambert(glm::vec3(1))), {-1, 0.5F, -1}, {2, 0, 0}, {0, 0, 2});
-  EXPECT_EQ(shot(scene, {1.5, 1, 0}, {-1.5, -1, 0}, 1), glm::vec3(0)) << "the quad itself";
   EXPECT_GT(shot(scene, {0, 0.4, 0}, {0, -1, 0}, 1).x, 0) << "a blocker on the viewer's side takes nothing";
   addQuad(scene, 1, {-1, -0.5F, -1}, {2, 0, 0}, {0, 0, 2});
   EXPECT_EQ(shot(scene, {0, 0.4, 0}, {0, -1, 0}, 1), glm::vec3(0));

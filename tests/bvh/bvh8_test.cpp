@@ -104,7 +104,8 @@ TEST(Bvh8, LeavesWithoutATree) {
     SCOPED_TRACE(count);
     const test::TriangleMesh mesh = test::randomSoup(count, 0.1F, 91);
     TriTree order;
-    for (std::uint32_t i = 0; i < count; ++i) order.order.push_back(count - 1 - i);
+    for (std::uint32_t i = 0; i < count; ++i)
+      order.order.push_back(static_cast<std::uint32_t>(count) - 1 - i);
     const Bvh8 wide = buildLeaves(order);
     const std::vector<float> corners = leavesOf(wide, order, mesh);
     const std::vector<std::uint8_t> places = leafPlaces(wide, order);

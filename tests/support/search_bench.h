@@ -88,6 +88,7 @@ class SearchBench {
       for (std::uint32_t i = 0; i < corners.size(); ++i) tree_.order.push_back(i);
     }
     deviceScene = uploadScene(compute_, scene, tree_, features);
+    counters_ = compute_.upload("counters", std::vector<std::uint32_t>(COUNTERS, 0));
   }
 
   /// Nearest hits. The rays stand at the end of a queue behind others, so that `first` counts.
@@ -104,8 +105,13 @@ class SearchBench {
     const Buffer in = compute_.upload("rays", queue);
     const std::vector<float> rubbish(std::size_t{HIT_PLANES} * capacity + QUEUE_PADDING, std::nanf(""));
     const Buffer out = compute_.upload("hits", rubbish);
-    stages->run(stages::Intersect{
-        .scene = deviceScene, .first = first, .count = count, .capacity = capacity, .rays = in, .hits = out});
+    stages->run(stages::Intersect{.scene = deviceScene,
+                                  .first = first,
+                                  .count = count,
+                                  .capacity = capacity,
+                                  .rays = in,
+                                  .hits = out,
+                                  .counters = counters_});
     std::vector<float> hits(rubbish.size());
     compute_.read(out, 0, out.bytes, hits.data());
     std::vector<TestHit> result(count);
@@ -145,7 +151,8 @@ class SearchBench {
                                 .capacity = capacity,
                                 .shadowQueue = queue,
                                 .shadows = candidates,
-                                .entryRadiance = radiance});
+                                .entryRadiance = radiance,
+                                .counters = counters_});
     std::vector<float> light(count);
     compute_.read(radiance, 0, count * sizeof(float), light.data());
     std::vector<bool> result(count);
@@ -163,6 +170,7 @@ class SearchBench {
  private:
   Compute& compute_;
   TriTree tree_;
+  Buffer counters_;
 };
 
 /// One triangle met by a ray, in double precision.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 
+#include "kernels/shared/layout.h"
 #include "support/single_rays.h"
 
 namespace whittle::test {
@@ -127,7 +128,7 @@ TEST(PrunedPictures, LightsThatReachNothing) {
   scene.lights = {black, scene.lights[0], far, shadowless, past, scene.lights[1]};
   const Stats stats = expectSameBits(scene);
   EXPECT_EQ(stats.pruning.droppedLights.size(), 3U);
-  EXPECT_EQ(bytesOf(stats, "lights"), 3U * 64);
+  EXPECT_EQ(bytesOf(stats, "lights"), 3U * sizeof(device::DeviceLight));
   EXPECT_EQ(stageOf(stats, "add_light").launches, stageOf(stats, "shade").launches);
 }
 

@@ -129,6 +129,11 @@ std::map<std::string, Material> changedOnce(const Material& m) {
   return changed;
 }
 
+/// Where a film is denser than what it lies on, half a wave is lost elsewhere: a jump of the extension's
+/// model, on either side of which rounding may put a pixel. Textures sweep all indices of the base across it:
+/// of 300 000 values of a channel some two are within 1e-6 of the film's.
+constexpr std::size_t kAtTheFilmsJump = 4;
+
 TEST(MaterialFactors, EachIsReadAndAgreesWithTheReference) {
   const Material material = textured(busyMaterial());
   Settings settings = smallSettings(2);
@@ -136,7 +141,7 @@ TEST(MaterialFactors, EachIsReadAndAgreesWithTheReference) {
   const RenderResult without = renderOnDevice(slab(material), settings);
   for (const auto& [name, changed] : changedOnce(material)) {
     const Agreement with = compareWithReference(slab(changed), settings);
-    expectAgreement(with, name, 4);
+    expectAgreement(with, name, 4, kAtTheFilmsJump);
     EXPECT_GT(differingPixels(with.kernel.radiance, without.radiance), 100U) << name;
   }
 }

@@ -29,7 +29,9 @@ struct Agreement {
 Agreement compareWithReference(const Scene& scene, Settings settings);
 
 /// What is asked of every scene: the same hits but for one pixel, at most `outliers` on edges, each
-/// explained, the rest within 1e-4 of the mean, and the same number of rays but for those of the outliers.
-void expectAgreement(const Agreement& agreement, const std::string& name, std::size_t outliers);
+/// explained but for `unexplained`, the rest within 1e-4 of the mean, and the same number of rays but for
+/// those of the outliers.
+void expectAgreement(const Agreement& agreement, const std::string& name, std::size_t outliers,
+                     std::size_t unexplained = 0);
 
 }  // namespace whittle::test

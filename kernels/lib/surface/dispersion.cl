@@ -1,5 +1,6 @@
 // What dispersion makes of a glass: red, green and blue have an index each, about the material's own, and so each a way
 // of its own through the surface (KHR_materials_dispersion). Formulas: host/reference/README.md.
+#include "lib/surface/footprint.cl"
 #include "lib/surface/material.cl"
 
 #if HAS(DISPERSION)

@@ -81,7 +81,7 @@ Finding checkFilm(Compute& compute, Dice& dice) {
     for (std::uint32_t s = 0; s < kSamples; ++s) {
       std::array<float, 3> value{};
       for (std::uint32_t c = 0; c < 3; ++c) {
-        value[c] = samples[std::size_t{c} * kSlots + pixel * kSamples + s];
+        value[c] = samples[std::size_t{c} * kSlots + std::size_t{pixel} * kSamples + s];
         colour[c].add(value[c]);
       }
       squares.add((value[0] * value[0] + value[1] * value[1] + value[2] * value[2]) * (1.0F / 3.0F));
@@ -138,8 +138,10 @@ std::vector<Finding> checkCompaction(Compute& compute) {
   for (float& value : impulses) value = dice.unit();
   for (float& value : rays) value = dice.unit();
   const Buffer from = compute.upload("flags", flags), in = compute.upload("impulses", impulses),
-               queue = compute.upload("rays", rays), totals = compute.allocate("totals", SUMS * kChunks * 4),
-               sums = compute.allocate("sums", SUMS * 4), shadows = compute.allocate("shadows", kEntries * 4),
+               queue = compute.upload("rays", rays),
+               totals = compute.allocate("totals", std::size_t{SUMS} * kChunks * 4),
+               sums = compute.allocate("sums", std::size_t{SUMS} * 4),
+               shadows = compute.allocate("shadows", std::size_t{kEntries} * 4),
                next = compute.allocate("next", impulses.size() * 4);
   StageRunner stages = runnerOf(compute, "compact.cl");
   stages.run(stages::CompactCount{

@@ -99,6 +99,7 @@ double rate(int threads, double seconds, const std::function<Slice()>& make) {
   });
   std::vector<double> work(static_cast<std::size_t>(threads));
   std::vector<std::thread> crew;
+  crew.reserve(work.size());
   for (int t = 0; t < threads; ++t)
     crew.emplace_back([&, t] {
       const Slice slice = make();

@@ -149,8 +149,9 @@ TriTree buildTree(const Scene& scene, const Decisions& decisions) {
 std::uint32_t queueCapacity(const Settings& s, const SceneFeatures& features, const DeviceInfo& device) {
   const std::uint64_t raysOfHit = std::max(mostRaysOfHit(features), 2U);
   const std::uint64_t samples = tracedRegion(s).pixels() * static_cast<std::uint64_t>(s.raysPerPixel);
-  const std::uint64_t wanted = std::min<std::uint64_t>(
-      {static_cast<std::uint64_t>(s.wavefront), raysOfHit * samples, loopLimits(device).entries / 64 * 64});
+  const std::uint64_t wanted =
+      std::min<std::uint64_t>({static_cast<std::uint64_t>(s.wavefront), raysOfHit * samples,
+                               std::uint64_t{loopLimits(device).entries} / 64 * 64});
   return static_cast<std::uint32_t>((std::max(wanted, raysOfHit * LONG_RUN) + 63) / 64 * 64);
 }
 

@@ -143,6 +143,7 @@ class SweepRun {
     for (const auto& [n, all] : looks) {
       const auto middle = [&all = all](double Ceilings::*rate) {
         std::vector<double> rates;
+        rates.reserve(all.size());
         for (const Ceilings& c : all) rates.push_back(c.*rate);
         return medianInterval(rates).middle;
       };

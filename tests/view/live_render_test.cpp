@@ -113,8 +113,7 @@ TEST(LiveRender, ACoarsePictureUnderWayIsFinishedThoughANewerOneIsAskedFor) {
         while (first == 0) std::this_thread::yield();  // with one processor the picture may be there first
         const view::Shown shown = rendering->shown();
         if (shown.coarse && shown.request == first) ++coarseOfFirst;
-        if (second == 0 && rendering->progress().doing == kLastPhase)
-          second = rendering->ask(request);
+        if (second == 0 && rendering->progress().doing == kLastPhase) second = rendering->ask(request);
       },
       {}, testKernelFolder());
   rendering = &live;

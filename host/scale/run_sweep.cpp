@@ -255,7 +255,11 @@ Best bestOf(const Sweep& sweep) {
   for (std::size_t p = 0; p < sweep.points.size(); ++p) {
     if (p == best.point || !competes(sweep.points[p])) continue;
     const Interval ratio = ratioOf(sweep.points[best.point].frames, sweep.points[p].frames);
-    if (!ratio.isKnown || ratio.contains(1.0)) best.asGood.push_back(p);
+    // Too few rounds in common: then the two intervals must lie apart.
+    const Interval fast = intervalOf(sweep.points[best.point].frames),
+                   other = intervalOf(sweep.points[p].frames);
+    const bool overlap = !fast.isKnown || !other.isKnown || other.low <= fast.high;
+    if (ratio.isKnown ? ratio.contains(1.0) : overlap) best.asGood.push_back(p);
   }
   return best;
 }

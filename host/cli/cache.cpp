@@ -16,6 +16,7 @@
 #include <string>
 
 #include "cl/device.h"
+#include "cl/device_facts.h"
 #include "cl/kernel_cache.h"
 #include "cl/program_cache.h"
 #include "cli/commands.h"
@@ -116,6 +117,7 @@ int runCache(const CacheOptions& o) {
   if (!o.device.empty() && !o.warm) throw InputError("--device: only --warm asks for one");
   const ProgramCache cache(programCacheFolder());
   if (o.clear) {
+    forgetFacts();
     tell(fmt::format("removed {} from {}\n", formatSome(cache.clear(), "program", "programs"),
                      cache.folder().string()));
     return 0;
@@ -133,7 +135,7 @@ void addCache(CLI::App& app, int& status) {
       app.add_subcommand("cache", "programs kept compiled, so that scenes start without a compiler");
   c->option_defaults()->group("Options");
   c->add_flag("--warm", o->warm, "compile the general programs that are missing, once for a device");
-  c->add_flag("--clear", o->clear, "remove all of them");
+  c->add_flag("--clear", o->clear, "remove all of them, and what was found out about devices");
   addText(*c, "--device", [o](const std::string& word) { o->device = word; },
           {"SELECTOR", "of --warm: index from `whittle devices`, part of a name, or cpu|gpu",
            "the first CPU, else the first"});

@@ -171,6 +171,8 @@ class SweepRun {
     if (!keepsGoing()) return result.stats.time.render;  // cut short: nobody reads it
     note(point, result);
     std::map<std::string, double> stages;
+    // Where a driver gives no times those of stages are the host's, which are no numbers of the device.
+    if (!result.stats.device.givesTimes) result.stats.stages.clear();
     for (const StageStats& s : result.stats.stages) {
       stages[s.facts.name] += s.seconds;
       if (std::find(sweep_.stages.begin(), sweep_.stages.end(), s.facts.name) == sweep_.stages.end())

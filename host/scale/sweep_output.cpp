@@ -107,6 +107,7 @@ std::string frameTable(const Sweep& sweep, const std::vector<Axis>& axes) {
 /// Milliseconds of each stage: of all points where the columns fit, else of the first and the best.
 std::string stageTable(const Sweep& sweep, const std::vector<Axis>& axes, const Best& best) {
   constexpr std::size_t kName = 18, kColumn = 11;
+  if (sweep.stages.empty()) return "This driver gives no times of stages.\n";
   std::vector<std::size_t> shown;
   for (std::size_t p = 0; p < sweep.points.size(); ++p)
     if (!sweep.points[p].frames.empty()) shown.push_back(p);
